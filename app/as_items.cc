@@ -25,9 +25,6 @@ void add_stated(nlohmann::json& illustration, const Case& the_case) {
 void add_stated(nlohmann::json& illustration, const Case& the_case, const Decoration& decoration) {
   add_stated(illustration, the_case);
   illustration["decoration"] = to_json(decoration);
-  if (the_case.bodies && !the_case.bodies->meshes.empty()) {
-    illustration["meshes"] = to_json(shown_meshes(*the_case.bodies));
-  }
 }
 
 std::optional<AsItems> prove_as_items(const Case& the_case, const Problem& problem, const Path& path,

@@ -13,7 +13,6 @@
 #include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/goals/GoalStates.h>
 #include <ompl/base/samplers/informed/RejectionInfSampler.h>
-#include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
@@ -33,6 +32,7 @@
 #include <optional>
 #include <thread>
 
+#include "bench/parameter_space.h"
 #include "kinematics/geometry.h"
 #include "kinematics/statics.h"
 #include "planner/planner.h"
@@ -49,8 +49,6 @@ constexpr double kPi = std::numbers::pi;
 /// Steps of a motion that are checked, in units of the space's extent.
 constexpr double kResolution = 0.001;
 constexpr double kBitStarSeconds = 1.0;  // of the processor, so that a busy machine takes nothing from it
-/// Real parameters without a range: theta, which may pass through 0 to either side; both goals are reachable.
-constexpr double kThetaBound = 2.2;
 /// A* over six parameters is an anytime search; as found, it would take seconds to its end.
 constexpr double kBudgetSeconds = 0.15;
 
@@ -255,78 +253,6 @@ void run_taut(const Query& query, const Variant& variant, const Poses& poses, Me
 
 // ---- OMPL
 // --------------------------------------------------------------------------------------------------------------
-
-double wrap(double angle) { return angle - 2.0 * kPi * std::round(angle / (2.0 * kPi)); }
-
-/// The box of the parameters with its periodic sides glued; Euclidean distance, as taut's `parameters`.
-class ParameterSpace final : public ob::RealVectorStateSpace {
- public:
-  explicit ParameterSpace(const SpaceText& space)
-      : ob::RealVectorStateSpace(static_cast<unsigned>(space.parameters.size())) {
-    for (std::size_t j = 0; j < space.parameters.size(); ++j) {
-      const Parameter& parameter = space.parameters[j];
-      periodic_.push_back(parameter.kind == ParameterKind::kPeriodic);
-      double low = -kPi;
-      double high = kPi;
-      if (parameter.kind == ParameterKind::kRange) {
-        low = evaluate_constant<double>(parameter.range_lower);
-        high = evaluate_constant<double>(parameter.range_upper);
-      } else if (!periodic_.back()) {
-        low = -kThetaBound;
-        high = kThetaBound;
-      }
-      bounds_.setLow(static_cast<unsigned>(j), low);
-      bounds_.setHigh(static_cast<unsigned>(j), high);
-    }
-  }
-
-  [[nodiscard]] double step(std::size_t j, double from, double to) const {
-    return periodic_[j] ? wrap(to - from) : to - from;
-  }
-  [[nodiscard]] std::span<const double> point(const ob::State* state) const {
-    return {state->as<StateType>()->values, dimension_};
-  }
-
-  /// The image of `state` that is nearest to `from`.
-  [[nodiscard]] Point nearest(const Point& from, const ob::State* state) const {
-    Point q = from;
-    for (std::size_t j = 0; j < q.size(); ++j) q[j] += step(j, from[j], point(state)[j]);
-    return q;
-  }
-
-  double distance(const ob::State* a, const ob::State* b) const override {
-    double square = 0;
-    for (std::size_t j = 0; j < dimension_; ++j) {
-      const double d = step(j, point(a)[j], point(b)[j]);
-      square += d * d;
-    }
-    return std::sqrt(square);
-  }
-  void interpolate(const ob::State* from, const ob::State* to, double t, ob::State* state) const override {
-    double* values = state->as<StateType>()->values;
-    for (std::size_t j = 0; j < dimension_; ++j) {
-      const double start = point(from)[j];
-      const double value = start + t * step(j, start, point(to)[j]);
-      values[j] = periodic_[j] ? wrap(value) : value;
-    }
-  }
-  double getMaximumExtent() const override {
-    double square = 0;
-    for (std::size_t j = 0; j < dimension_; ++j) {
-      const double side = (bounds_.high[j] - bounds_.low[j]) * (periodic_[j] ? 0.5 : 1.0);
-      square += side * side;
-    }
-    return std::sqrt(square);
-  }
-  double getMeasure() const override {
-    double product = 1;
-    for (std::size_t j = 0; j < dimension_; ++j) product *= bounds_.high[j] - bounds_.low[j];
-    return product;
-  }
-
- private:
-  std::vector<bool> periodic_;
-};
 
 /// The length of a motion, bounded from below by the distance of its ends. By a case's cost it is summed up in pieces,
 /// since what is straight in the parameters curves in space.

@@ -257,6 +257,7 @@ std::vector<PairClass> checked_classes(const Map& map, const BodiesText& bodies,
     }
     checked.push_back(kind);
   }
+  if (checked.empty()) pairs->complain("got an empty list, expected one class of pairs or more, or no 'pairs'");
   return checked;
 }
 

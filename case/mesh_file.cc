@@ -2,7 +2,6 @@
 #include "case/mesh_file.h"
 
 #include <CGAL/IO/OBJ.h>
-#include <CGAL/IO/PLY.h>
 #include <CGAL/IO/STL.h>
 #include <CGAL/Simple_cartesian.h>
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include <bit>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -23,6 +23,7 @@
 #include "base/input_error.h"
 #include "base/sanitize.h"
 #include "base/sha256.h"
+#include "case/ply_file.h"
 #include "problem/rational.h"
 
 namespace taut {
@@ -32,13 +33,18 @@ namespace {
 
 // --- Files -------------------------------------------------------------------------------------------------------
 //
-// CGAL reads them, but leaves out without a word what it does not know. What would be lost is refused.
+// CGAL reads STL and OBJ files, but leaves out without a word what it does not know. What would be lost is refused.
 
 constexpr std::size_t kStlHead = 84;   ///< of a binary STL file, with the count of triangles in its last 4 bytes
 constexpr std::size_t kStlPiece = 50;  ///< a triangle: normal, corners, two bytes
 
+bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+
+/// A binary file has a zero in its count: no file is large enough for 2^24 triangles.
 bool is_text_stl(const std::string& bytes) {
-  return bytes.starts_with("solid") && bytes.find("facet") != std::string::npos;
+  constexpr std::string_view kSolid = "solid";
+  return bytes.starts_with(kSolid) && bytes.size() > kSolid.size() && is_space(bytes[kSolid.size()]) &&
+         bytes.find("facet") != std::string::npos && bytes.find('\0') == std::string::npos;
 }
 
 std::uint32_t little_endian(const std::string& bytes, std::size_t at) {
@@ -50,13 +56,13 @@ std::uint32_t little_endian(const std::string& bytes, std::size_t at) {
 }
 
 /// A binary STL file says how many triangles follow; CGAL would make room for as many as it says.
-bool is_cut_stl(const std::string& bytes) {
+bool is_not_whole_stl(const std::string& bytes) {
   if (is_text_stl(bytes)) return false;
   if (bytes.size() < kStlHead) return true;
-  return bytes.size() < kStlHead + kStlPiece * static_cast<std::size_t>(little_endian(bytes, kStlHead - 4));
+  return bytes.size() != kStlHead + kStlPiece * static_cast<std::size_t>(little_endian(bytes, kStlHead - 4));
 }
 
-/// CGAL takes a point that is no number for one that it has read before. @pre !is_cut_stl
+/// CGAL takes a point that is no number for one that it has read before. @pre !is_not_whole_stl
 void require_numbers(const std::string& bytes) {
   const std::size_t count = little_endian(bytes, kStlHead - 4);
   for (std::size_t t = 0; t < count; ++t) {
@@ -79,16 +85,51 @@ std::size_t count_words(const std::string& bytes, const std::string& word) {
   return count;
 }
 
-/// Whether a word of a face in an OBJ file is a corner: "3", "-1", "3/1/2", "3//2".
+/// Whether a word of a face in an OBJ file is a corner: "3", "-1", "3/1/2", "3//2". CGAL takes 0 for the point that
+/// follows, leaves out the rest of a face behind a number that is too large for it, and reads on within a long word.
 bool is_corner(std::string_view word) {
-  if (word.starts_with('-')) word.remove_prefix(1);
-  return !word.empty() && std::isdigit(static_cast<unsigned char>(word.front())) != 0 &&
-         word.find_first_not_of("-0123456789/") == std::string_view::npos &&
-         word.substr(0, word.find('/')).find('-') == std::string_view::npos;
+  constexpr std::size_t kMostDigits = 9;
+  constexpr std::size_t kMostLetters = 100;
+  const std::string_view index = word.substr(word.starts_with('-') ? 1 : 0, word.find('/') - word.starts_with('-'));
+  return !index.empty() && index.size() <= kMostDigits && word.size() <= kMostLetters &&
+         index.find_first_not_of("0123456789") == std::string_view::npos &&
+         index.find_first_not_of('0') != std::string_view::npos &&
+         word.find_first_not_of("-0123456789/") == std::string_view::npos;
 }
 
-/// Refuses faces with words that are no corners, behind which CGAL leaves out the rest, and surfaces of other kinds.
-void require_plain_faces(const std::string& bytes) {
+/// CGAL takes the 1 of "1,5" or "1mm" for a number. What is too large for one is left to it.
+bool is_number(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error != std::errc::invalid_argument && end == word.data() + word.size();
+}
+
+/// Three coordinates, maybe with a colour, or with a weight of 1: CGAL does not divide by it.
+bool is_point(const std::vector<std::string>& words) {
+  if (!std::ranges::all_of(words, is_number)) return false;
+  if (words.size() == 4) {
+    const std::string& weight = words.back();
+    return weight == "1" || (weight.starts_with("1.") && weight.find_first_not_of('0', 2) == std::string::npos);
+  }
+  return words.size() == 3 || words.size() == 6;
+}
+
+/// Refuses text in which a coordinate of a corner is followed by anything but a blank.
+void require_plain_corners(const std::string& text) {
+  std::istringstream words(text);
+  std::string word;
+  while (words >> word) {
+    if (word != "vertex") continue;
+    for (std::size_t k = 0; k < 3 && words >> word; ++k) {
+      if (!is_number(word)) fail(fmt::format("in which '{}' is no number, expected a mesh", excerpt(word)));
+    }
+  }
+}
+
+/// Refuses points and faces with words that are no numbers and no corners, behind which CGAL leaves out the rest, and
+/// surfaces of other kinds.
+void require_plain_lines(const std::string& bytes) {
   std::istringstream lines(bytes);
   std::size_t number = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -99,36 +140,12 @@ void require_plain_faces(const std::string& bytes) {
     for (const char* curved : {"surf", "bsp", "bzp", "cdc", "cdp"}) {
       if (word == curved) fail(fmt::format("which has a curved surface in line {}, expected a mesh", number));
     }
-    if (word != "f") continue;
-    while (words >> word && !word.starts_with('#')) {
-      if (!is_corner(word)) fail(fmt::format("in which line {} is no face, expected a mesh", number));
-    }
-  }
-}
-
-/// Refuses a PLY file whose points lack a coordinate, or with elements such as strips of triangles.
-void require_plain_elements(const std::string& bytes) {
-  std::istringstream lines(bytes);
-  std::set<std::string> coordinates;
-  std::string element;
-  for (std::string line; std::getline(lines, line) && !line.starts_with("end_header");) {
-    std::istringstream words(line);
-    std::string word, type, name;
-    words >> word;
-    if (word == "element") {
-      words >> element;
-      constexpr std::array<const char*, 5> kKnown = {"vertex", "vertices", "face", "faces", "edge"};
-      if (std::ranges::find(kKnown, element) == kKnown.end()) {
-        fail(fmt::format("which has elements that are called '{}', expected points and faces", excerpt(element)));
-      }
-    }
-    if (word != "property" || !element.starts_with("vert") || !(words >> type >> name)) continue;
-    if (type.starts_with("float") || type.starts_with("double")) coordinates.insert(name);
-  }
-  for (const char* coordinate : {"x", "y", "z"}) {
-    if (!coordinates.contains(coordinate)) {
-      fail(fmt::format("in which points have no floating-point number '{}', expected a mesh", coordinate));
-    }
+    if (word != "f" && word != "v") continue;
+    const bool is_face = word == "f";
+    std::vector<std::string> parts;
+    while (words >> word && !word.starts_with('#')) parts.push_back(word);
+    if (is_face ? std::ranges::all_of(parts, is_corner) : is_point(parts)) continue;
+    fail(fmt::format("in which line {} is no {}, expected a mesh", number, is_face ? "face" : "point"));
   }
 }
 
@@ -137,12 +154,26 @@ using CgalPoint = CGAL::Simple_cartesian<double>::Point_3;
 /// Refuses a file of which CGAL would lose a part, or would crash. @pre it is not cut, if it is a binary STL file
 void require_plain(const std::string& extension, const std::string& bytes) {
   if (extension == ".obj") {
-    require_plain_faces(bytes);
-  } else if (extension == ".ply") {
-    require_plain_elements(bytes);
-  } else if (!is_text_stl(bytes)) {
+    require_plain_lines(bytes);
+  } else if (is_text_stl(bytes)) {
+    require_plain_corners(bytes);
+  } else {
     require_numbers(bytes);
   }
+}
+
+/// The same file as CGAL needs it. Of blanks it knows but some in some places, and of ends of lines one; of an STL file
+/// it guesses the kind from the first word.
+std::string as_cgal_needs_it(const std::string& extension, std::string bytes) {
+  if (extension == ".stl" && !is_text_stl(bytes)) {
+    std::fill_n(bytes.begin(), std::min(bytes.size(), kStlHead - 4), '\0');
+    return bytes;
+  }
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const bool ends_line = bytes[i] == '\n' || (bytes[i] == '\r' && bytes.compare(i, 2, "\r\n") != 0);
+    if (is_space(bytes[i])) bytes[i] = ends_line ? '\n' : ' ';
+  }
+  return bytes;
 }
 
 bool read_by_cgal(const std::string& extension, const std::string& bytes, std::vector<CgalPoint>& points,
@@ -151,7 +182,6 @@ bool read_by_cgal(const std::string& extension, const std::string& bytes, std::v
   const auto quietly = CGAL::parameters::verbose(false);
   try {
     if (extension == ".obj") return CGAL::IO::read_OBJ(stream, points, faces, quietly);
-    if (extension == ".ply") return CGAL::IO::read_PLY(stream, points, faces, quietly);
     if (!CGAL::IO::read_STL(stream, points, faces, quietly)) return false;
     return is_text_stl(bytes) ? count_words(bytes, "vertex") == 3 * faces.size()
                               : little_endian(bytes, kStlHead - 4) == faces.size();
@@ -163,13 +193,8 @@ bool read_by_cgal(const std::string& extension, const std::string& bytes, std::v
 /// Reads a whole file. False if it is none.
 bool read_file(const std::string& extension, const std::string& bytes, std::vector<CgalPoint>& points,
                std::vector<std::vector<std::size_t>>& faces) {
-  if (extension == ".stl" && is_cut_stl(bytes)) return false;
+  if (extension == ".stl" && is_not_whole_stl(bytes)) return false;
   require_plain(extension, bytes);
-  if (extension == ".obj" && bytes.find('\t') != std::string::npos) {  // CGAL does not take tabs in faces for blanks
-    std::string with_blanks = bytes;
-    std::ranges::replace(with_blanks, '\t', ' ');
-    return read_by_cgal(extension, with_blanks, points, faces);
-  }
   return read_by_cgal(extension, bytes, points, faces);
 }
 
@@ -437,9 +462,10 @@ std::string mesh_bytes(const std::filesystem::path& path) {
 }
 
 PolygonSoup read_polygons(const std::string& extension, const std::string& bytes) {
+  if (extension == ".ply") return read_ply(bytes);
   std::vector<CgalPoint> points;
   PolygonSoup soup;
-  if (!read_file(extension, bytes, points, soup.faces)) {
+  if (!read_file(extension, as_cgal_needs_it(extension, bytes), points, soup.faces)) {
     fail(fmt::format("which is no whole {} file, expected a mesh", extension.substr(1)));
   }
   soup.points.reserve(points.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes in files: STL (binary and text), OBJ and PLY, read by CGAL.
+// Meshes in files: STL (binary and text) and OBJ, read by CGAL, and PLY (ply_file.h).
 //
 // A mesh is the union of its triangles. A coordinate is the binary64 number nearest to what the file says, or the
 // binary32 number where the file says that its numbers are such, in a unit that the file does not know. A face with

@@ -126,7 +126,8 @@ Margins margins_below(double tension_N, double length_m, double wrench_scale, st
   return margins;
 }
 
-PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known, const std::stop_token& stop) {
+PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known, const std::stop_token& stop,
+                     ProofAim aim) {
   PathProof result;
   if (path.segments() == 0) {
     if (path.waypoints.size() == 1) result.witness = refute_pose(prover, path.segment(0), 0, result.reason, stop);
@@ -137,7 +138,7 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
   result.segments.resize(path.segments());
   const auto prove = [&](std::size_t k) {
     const SegmentProof* earlier = known ? known(path.segment(k)) : nullptr;
-    result.segments[k] = earlier != nullptr ? *earlier : prover.prove(path.segment(k), 0, stop);
+    result.segments[k] = earlier != nullptr ? *earlier : prover.prove(path.segment(k), 0, stop, aim);
   };
   // Making threads takes longer than most short paths.
   constexpr std::chrono::milliseconds kAlone{1};

@@ -56,7 +56,7 @@ using KnownProof = std::function<const SegmentProof*(const Segment& segment)>;
 
 /// Verdict for the whole path. A path of one waypoint is refuted if that is infeasible, else undecided ("no segment").
 [[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known = {},
-                                   const std::stop_token& stop = {});
+                                   const std::stop_token& stop = {}, ProofAim aim = ProofAim::kDecide);
 
 /// What refutes segment `index` of a path, as a statement about the path.
 [[nodiscard]] PathWitness path_witness(const Prover& prover, const Segment& segment, int index,

@@ -180,11 +180,11 @@ SegmentProof to_proof(SegmentSurvey survey) {
 
 }  // namespace
 
-SegmentProof Prover::prove(const Segment& segment, double clearance, const std::stop_token& stop) const {
+SegmentProof Prover::prove(const Segment& segment, double clearance, const std::stop_token& stop, ProofAim aim) const {
   if (!is_admissible(segment)) return to_proof(open_survey(segment.law, range_violation(segment)));
-  SegmentWalk walk(*this, segment, clearance, SegmentWalk::Extent::kToFirstFailure, stop);
+  SegmentWalk walk(*this, segment, clearance, SegmentWalk::Extent::kToFirstFailure, stop, aim);
   SegmentProof proof = to_proof(walk.run());
-  if (proof.verdict != Verdict::kUndecided) return proof;
+  if (proof.verdict != Verdict::kUndecided || aim == ProofAim::kProve) return proof;
   proof.witness = walk.refute_elsewhere();
   if (proof.witness) {
     proof.verdict = Verdict::kRefuted;

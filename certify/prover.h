@@ -31,6 +31,11 @@ struct ProofOptions {
   int tolerance_depth = 6;
 };
 
+enum class ProofAim {
+  kDecide,  ///< proved, refuted, or undecided
+  kProve,   ///< what is not proved is undecided, soon: nothing is looked for that refutes it
+};
+
 /// A problem ready to be proved about, at every rung of the ladder. Immutable; share it between threads.
 class Prover {
  public:
@@ -54,11 +59,11 @@ class Prover {
   /// `clearance` from limits (judge_box) the proof also fails, as undecided, where the segment
   /// comes closer to a limit than that. A proof that `stop` cuts short is undecided, "interrupted".
   /// Thread-safe; restores the caller's rounding mode.
-  [[nodiscard]] SegmentProof prove(const Segment& segment, double clearance = 0,
-                                   const std::stop_token& stop = {}) const;
+  [[nodiscard]] SegmentProof prove(const Segment& segment, double clearance = 0, const std::stop_token& stop = {},
+                                   ProofAim aim = ProofAim::kDecide) const;
   [[nodiscard]] SegmentProof prove(const Waypoint& a, const Waypoint& b, double clearance = 0,
-                                   const std::stop_token& stop = {}) const {
-    return prove(segment(a, b), clearance, stop);
+                                   const std::stop_token& stop = {}, ProofAim aim = ProofAim::kDecide) const {
+    return prove(segment(a, b), clearance, stop, aim);
   }
 
   /// The claim of prove() box by box, where it does not stop at what it can't prove: for paths of which all violations

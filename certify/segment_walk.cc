@@ -137,25 +137,22 @@ class SlopeSecants {
 }  // namespace
 
 SegmentWalk::SegmentWalk(const Prover& prover, const Segment& segment, double clearance, Extent extent,
-                         const std::stop_token& stop)
+                         const std::stop_token& stop, ProofAim aim)
     : prover_(prover),
       ladder_(prover.ladder()),
       segment_(segment),
       clearance_(clearance),
       extent_(extent),
       stop_(stop),
+      aim_(aim),
       deviations_(prover, segment) {
   survey_.tension_N = survey_.length_m = survey_.wrench_scale = survey_.clearance_m =
       std::numeric_limits<double>::infinity();
   if (prover.bodies() == nullptr) return;
   const PoseSampler& sampler = prover.sampler();
-  const RigidPose middle = sampler.rigid_pose(segment, 0.5);
-  PairDirections rough;
-  for (std::size_t n = 0; n < prover.bodies()->bodies().pairs.size(); ++n) {
-    rough.single.push_back(prover.bodies()->rough_direction(sampler.model(), middle, n));
-    if (prover.bodies()->needs_list(n)) rough.lists[n] = {rough.single.back()};
-  }
-  directions_ = std::make_shared<const PairDirections>(std::move(rough));
+  const std::array<RigidPose, 2> ends{sampler.rigid_pose(segment, 0), sampler.rigid_pose(segment, 1)};
+  directions_ = std::make_shared<const PairDirections>(
+      prover.bodies()->first_directions(sampler.model(), sampler.rigid_pose(segment, 0.5), ends));
 }
 
 SegmentSurvey SegmentWalk::run() {
@@ -270,6 +267,7 @@ SegmentWalk::Step SegmentWalk::examine_deviations(const Task& task, const BoxVer
     return steps_are_few && !is_proved_inside(task) ? refine : Step{Step::Kind::kSplit, verdict};
   }
   const Step give_up{Step::Kind::kGiveUp, verdict, {}, at(Undecided::kTolerances, verdict.worst)};
+  if (aim_ == ProofAim::kProve) return steps_are_few ? refine : give_up;
   // Once a deviation refutes the segment, only its last box is searched again: a survey states the first and the last
   // violation of a stretch, and each search is costly.
   if (deviation_refutes_ && task.box.upper() != Dyadic{1, 0}) return give_up;
@@ -323,8 +321,8 @@ SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict
     return {Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, " a cable may be shorter than its free ends"}};
   }
   const double s = task.box.mid().approx();
-  if (task.redirections < kMostRedirections && redirect(task.box, verdict, task.redirections)) {
-    return {Step::Kind::kRedirect, verdict};
+  for (std::size_t time = task.redirections; time < kMostRedirections; ++time) {
+    if (redirect(task.box, verdict, time)) return {Step::Kind::kRedirect, verdict};
   }
 
   const auto gap_of = [&](const BoxVerdict::NearPair& near) { return gap(near.pair, s); };
@@ -333,6 +331,7 @@ SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict
 
   using AtMid = BoxVerdict::NearPair::AtMid;
   const Step give_up{Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, " " + pair_name(nearest.pair)}};
+  if (aim_ == ProofAim::kProve && !(room(nearest.pair, s) > 0)) return give_up;
   switch (nearest.at_mid) {
     case AtMid::kApart:
       if (may_split) return {Step::Kind::kSplit, verdict};
@@ -364,6 +363,11 @@ bool SegmentWalk::redirect(const DyadicBox& box, const BoxVerdict& verdict, std:
   if (turned == *directions_) return false;
   directions_ = std::make_shared<const PairDirections>(std::move(turned));
   return true;
+}
+
+double SegmentWalk::room(std::size_t pair, double s) const {
+  const PoseSampler& sampler = prover_.sampler();
+  return prover_.bodies()->room(sampler.model(), sampler.rigid_pose(segment_, s), pair);
 }
 
 double SegmentWalk::gap(std::size_t pair, double s) const {
@@ -415,6 +419,7 @@ std::optional<SegmentWalk::Step> SegmentWalk::refute_contact(const Task& task, c
                                                              std::size_t pair) {
   constexpr int kEvery = 4;   // halvings between two searches, each of which takes some fifty distances
   constexpr int kPlace = 44;  // halvings to a place
+  if (aim_ == ProofAim::kProve) return std::nullopt;
   const PoseSampler& sampler = prover_.sampler();
   const auto judge = [&](const DyadicBox& box) -> std::optional<Step> {
     const RigidPose pose = sampler.rigid_pose(segment_, box.mid().approx());

@@ -34,7 +34,7 @@ class SegmentWalk {
 
   /// @pre prover.is_admissible(segment)
   SegmentWalk(const Prover& prover, const Segment& segment, double clearance, Extent extent,
-              const std::stop_token& stop);
+              const std::stop_token& stop, ProofAim aim = ProofAim::kDecide);
 
   /// The boxes of the segment, in order, as far as the extent goes.
   [[nodiscard]] SegmentSurvey run();
@@ -84,6 +84,7 @@ class SegmentWalk {
   [[nodiscard]] std::optional<Step> refute_contact(const Task& task, const BoxVerdict& verdict, std::size_t pair);
   [[nodiscard]] std::string pair_name(std::size_t pair) const;
   [[nodiscard]] double gap(std::size_t pair, double s) const;
+  [[nodiscard]] double room(std::size_t pair, double s) const;
   [[nodiscard]] double nearest_place(std::size_t pair, const DyadicBox& box) const;
   [[nodiscard]] Step locate_minimum(const Task& task, MarginId margin);
   [[nodiscard]] bool is_proved_inside(const Task& task);
@@ -105,6 +106,7 @@ class SegmentWalk {
   double clearance_;
   Extent extent_;
   const std::stop_token& stop_;
+  ProofAim aim_;
   DeviationSearch deviations_;
   std::shared_ptr<const PairDirections> directions_;  ///< along which pairs were apart last; null: no bodies
   SegmentSurvey survey_;

@@ -2,12 +2,14 @@
 #include "checker/check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
 #include <thread>
 
 #include "base/sha256.h"
@@ -107,6 +109,22 @@ std::string duration(double seconds) {
 void keep(const std::string& bytes, const CheckOptions& options, CheckResult& result) {
   if (!options.keeps_certificate) return;
   result.certificate = std::make_shared<const nlohmann::json>(nlohmann::json::parse(bytes));
+}
+
+/// "; only the surface of rock.stl was checked, a mesh without an inside", or nothing.
+std::string describe_open_meshes(const Problem& problem) {
+  if (!problem.bodies) return "";
+  std::set<std::string> files;
+  for (const auto* list : {&problem.bodies->platform, &problem.bodies->obstacles}) {
+    for (const RigidBody& body : *list) {
+      const auto* mesh = std::get_if<MeshShape>(&body.shape);
+      if (mesh == nullptr || mesh->surface == nullptr || mesh->surface->is_closed()) continue;
+      files.insert(printable(mesh->file));
+    }
+  }
+  if (files.empty()) return "";
+  return fmt::format("; only the surface of {} was checked, {} without an inside", fmt::join(files, ", "),
+                     files.size() == 1 ? "a mesh" : "meshes");
 }
 
 std::string describe_accepted(const Certificate& certificate, const CheckResult& result) {
@@ -234,7 +252,7 @@ std::optional<Theorem::Verdict> check_path(const std::string& bytes, Outline out
   const ConfirmOptions how = confirm_options(options, start);
   if (!options.meshes) supply_meshes(certificate.problem, options, result);
   result.counts = confirm(certificate, how);
-  result.message = describe_accepted(certificate, result);
+  result.message = describe_accepted(certificate, result) + describe_open_meshes(certificate.problem);
   return theorem_verdict(certificate.verdict);
 }
 

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
+
+#include "checker/format/exact.h"
 
 namespace taut::checker {
 namespace {
@@ -22,9 +23,10 @@ Json bodies_of(const std::string& certificate) {
   return Json::parse(certificate, keep).at("problem").value("bodies", Json());
 }
 
-std::string metres(const Json& text) {
-  return fmt::format("{:.6g} m", std::strtod(text.get<std::string>().c_str(), nullptr));
-}
+/// Of a decimal that the reader has accepted, in any locale.
+double rounded(const Json& text) { return parse_decimal(text.get<std::string>()).value().get_d(); }
+
+std::string metres(const Json& text) { return fmt::format("{:.6g} m", rounded(text)); }
 
 /// "platform-obstacles (2 pairs), 0.2 m", or nothing where the class has no clearance.
 std::string class_text(const Json& bodies, const char* name, std::size_t pairs) {
@@ -48,7 +50,7 @@ std::string range_text(const Json& list) {
   double least = 0, greatest = 0;
   bool is_first = true;
   for (const Json& entry : list) {
-    const double x = std::strtod(entry.get<std::string>().c_str(), nullptr);
+    const double x = rounded(entry);
     least = is_first ? x : std::min(least, x);
     greatest = is_first ? x : std::max(greatest, x);
     is_first = false;

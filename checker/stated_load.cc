@@ -2,10 +2,10 @@
 #include "checker/stated_load.h"
 
 #include <fmt/format.h>
-#include <gmpxx.h>
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
+
+#include "checker/format/exact.h"
 
 namespace taut::checker {
 namespace {
@@ -21,11 +21,9 @@ Json load_of(const std::string& certificate) {
   return Json::parse(certificate, keep).at("problem").at("load");
 }
 
-/// Of a decimal or "a/b", rounded to 6 digits.
+/// Of a decimal or "a/b" that the reader has accepted, rounded to 6 digits, in any locale.
 std::string number(const Json& text) {
-  std::string digits = text.get<std::string>();
-  if (digits.find('/') == std::string::npos) return fmt::format("{:.6g}", std::strtod(digits.c_str(), nullptr));
-  return fmt::format("{:.6g}", mpq_class(digits).get_d());
+  return fmt::format("{:.6g}", parse_rational(text.get<std::string>()).value().get_d());
 }
 
 std::string vector(const Json& list, std::size_t first = 0) {

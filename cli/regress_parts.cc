@@ -35,6 +35,9 @@ json case_digest(const std::string& name, const std::filesystem::path& file) {
   try {
     const Case declared = load_case(file.string());
     if (declared.audit) digest.push_back(file_digest(file.parent_path() / declared.audit->file));
+    if (declared.bodies) {
+      for (const MeshOfBody& mesh : declared.bodies->meshes) digest.push_back(mesh.mesh->sha256);
+    }
   } catch (const InputError&) {
     // its run says what is wrong with it
   }

@@ -202,7 +202,7 @@ class Planner::Edges {
     const auto [it, is_new] = proofs_.try_emplace({a.x, b.x});
     if (is_new) {
       const auto start = Clock::now();
-      it->second = prover_->prove(a, b, 0, stop);
+      it->second = prover_->prove(a, b, 0, stop, ProofAim::kProve);
       proving_seconds_ += seconds_since(start);
     }
     return it->second.verdict == Verdict::kProved;
@@ -472,8 +472,9 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
   const auto start = Clock::now();
   result.path = std::move(found->path);
   set_tubes(result.path, prover_);
+  const ProofAim aim = edge_prover == nullptr ? ProofAim::kProve : ProofAim::kDecide;  // another path is sought
   result.proof = prove_path(
-      prover_, result.path, [&](const Segment& segment) { return edges.find(segment); }, stop);
+      prover_, result.path, [&](const Segment& segment) { return edges.find(segment); }, stop, aim);
   statistics.prove_seconds += seconds_since(start);
   if (result.proof.verdict != Verdict::kProved) return false;
   if (case_.planner.smoothing == Smoothing::kSpline) round_corners(found->stops, stop, result);

@@ -61,7 +61,7 @@ class Smoother {
     judged_ += static_cast<int>(fresh.size());
     tbb::parallel_for(std::size_t{0}, fresh.size(), [&](std::size_t i) {
       const Segment segment = path_.segment(fresh[i]);
-      proofs_.at(key_of(segment)) = problem_.prover.prove(segment, problem_.clearance, problem_.stop);
+      proofs_.at(key_of(segment)) = problem_.prover.prove(segment, problem_.clearance, problem_.stop, ProofAim::kProve);
     });
   }
 

@@ -12,7 +12,7 @@ namespace taut {
 IndexedMesh::IndexedMesh(TriangleMesh mesh) : mesh_(std::move(mesh)) {
   if (mesh_.triangles.empty()) throw std::logic_error("a mesh without triangles");
   build_tree();
-  find_edges();
+  find_shells();
   find_components();
 }
 
@@ -83,20 +83,62 @@ void IndexedMesh::build_tree() {
   }
 }
 
-void IndexedMesh::find_edges() {
-  std::vector<std::array<std::uint32_t, 2>> edges;
-  edges.reserve(3 * mesh_.triangles.size());
-  for (const auto& triangle : mesh_.triangles) {
+/// Walks from triangle to triangle over edges that two have. Neighbours that pass their edge in one direction turn in
+/// different ways.
+void IndexedMesh::find_shells() {
+  struct Side {
+    std::array<std::uint32_t, 2> ends;  // rising
+    std::uint32_t triangle;
+    bool is_rising;
+  };
+  const std::size_t count = mesh_.triangles.size();
+  std::vector<Side> sides;
+  sides.reserve(3 * count);
+  for (std::uint32_t t = 0; t < count; ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(triangle[k], triangle[(k + 1) % 3]);
-      edges.push_back({low, high});
+      const std::uint32_t from = mesh_.triangles[t][k], to = mesh_.triangles[t][(k + 1) % 3];
+      sides.push_back({{std::min(from, to), std::max(from, to)}, t, from < to});
     }
   }
-  std::ranges::sort(edges);
+  std::ranges::sort(sides, {}, [](const Side& side) { return std::pair(side.ends, side.triangle); });
+  struct Neighbour {
+    std::uint32_t triangle;
+    bool turns_alike;
+  };
+  std::vector<std::vector<Neighbour>> neighbours(count);
   is_watertight_ = true;
-  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    while (end < edges.size() && edges[end] == edges[begin]) ++end;
-    if (end - begin != 2) is_watertight_ = false;
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].ends == sides[begin].ends) ++end;
+    is_watertight_ = is_watertight_ && end - begin == 2;
+    for (std::size_t k = begin + 1; k < end; ++k) {
+      const Side &a = sides[k - 1], &b = sides[k];
+      const bool turns_alike = a.is_rising != b.is_rising;
+      neighbours[a.triangle].push_back({b.triangle, turns_alike});
+      neighbours[b.triangle].push_back({a.triangle, turns_alike});
+    }
+  }
+  shell_of_.assign(count, 0);
+  turn_of_.assign(count, 0);
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t first = 0; first < count; ++first) {
+    if (turn_of_[first] != 0) continue;
+    turn_of_[first] = 1;
+    open.push_back(first);
+    while (!open.empty()) {
+      const std::uint32_t t = open.back();
+      open.pop_back();
+      shell_of_[t] = static_cast<std::uint32_t>(shells_);
+      for (const auto& [next, turns_alike] : neighbours[t]) {
+        const auto turn = static_cast<std::int8_t>(turns_alike ? turn_of_[t] : -turn_of_[t]);
+        if (turn_of_[next] == 0) {
+          turn_of_[next] = turn;
+          open.push_back(next);
+        } else if (turn_of_[next] != turn) {
+          is_watertight_ = false;
+        }
+      }
+    }
+    ++shells_;
   }
 }
 

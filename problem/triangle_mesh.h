@@ -45,20 +45,30 @@ class IndexedMesh {
   /// The first is the root.
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
-  /// Whether the mesh has an inside: each edge has two triangles.
+  /// Whether the mesh has an inside: each edge has two triangles, and each shell two sides.
   [[nodiscard]] bool is_watertight() const { return is_watertight_; }
+  /// The parts that hang together by edges.
+  [[nodiscard]] std::size_t shells() const { return shells_; }
+  /// The shell of a triangle, from 0.
+  [[nodiscard]] std::uint32_t shell(std::size_t triangle) const { return shell_of_[triangle]; }
+  /// 1 or -1: the triangles of a shell with one number turn the other way round than those with the other. @pre
+  /// is_watertight()
+  [[nodiscard]] int turn(std::size_t triangle) const { return turn_of_[triangle]; }
   /// Of each part that hangs together by vertices, one of these.
   [[nodiscard]] const std::vector<std::uint32_t>& components() const { return components_; }
 
  private:
   void build_tree();
-  void find_edges();
+  void find_shells();
   void find_components();
 
   TriangleMesh mesh_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
   bool is_watertight_ = false;
+  std::size_t shells_ = 0;
+  std::vector<std::uint32_t> shell_of_;  ///< by triangle
+  std::vector<std::int8_t> turn_of_;     ///< by triangle
   std::vector<std::uint32_t> components_;
 };
 

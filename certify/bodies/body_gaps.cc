@@ -111,8 +111,10 @@ std::vector<typename BodyGaps<I, Slope>::Projection> BodyGaps<I, Slope>::platfor
                                                                                          bool in_platform) const {
   std::vector<Projection> result;
   result.reserve(body.points.size());
-  if (in_platform) {
-    for (const Vector3<I>& x : body.points) result.push_back({Form(dot(u.u, x)), Upper(0.0)});
+  if (in_platform) {  // they stand still: the lowest one will do
+    I lowest = dot(u.u, body.points.front());
+    for (const Vector3<I>& x : body.points) lowest = lesser(lowest, dot(u.u, x));
+    result.push_back({Form(lowest), Upper(0.0)});
     return result;
   }
   for (const Vector3<I>& x : body.points) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // On which side of a closed mesh a point is.
 //
-// A watertight mesh, each edge of which has two triangles, is the boundary of its inside: of the points from which a
-// ray in general position crosses an odd number of triangles (docs/theory.md, "Meshes"). Signs of determinants of
-// intervals decide of each triangle whether the ray crosses it. Where one of them is not known, another ray is taken.
+// Inside of a watertight mesh are the points from which a ray in general position crosses the triangles of some shell
+// more often from one side than from the other (docs/theory.md, "Meshes"). Signs of determinants of intervals decide of
+// each triangle whether the ray crosses it. Where one of them is not known, another ray is taken.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -36,7 +37,7 @@ class RayCount {
   }
 
   [[nodiscard]] MeshSide side() const {
-    bool is_inside = false;
+    std::vector<int> winding(mesh_.shells());
     std::vector<std::uint32_t> open = {0};
     while (!open.empty()) {
       const std::uint32_t index = open.back();
@@ -51,12 +52,13 @@ class RayCount {
       for (std::uint32_t i = node.begin; i < node.end; ++i) {
         const std::uint32_t element = mesh_.order()[i];
         if (element >= mesh_.mesh().triangles.size()) continue;  // a needle has no inside
-        const std::optional<bool> crosses = this->crosses(element);
+        const std::optional<int> crosses = this->crosses(element);
         if (!crosses) return MeshSide::kUnknown;
-        if (*crosses) is_inside = !is_inside;
+        winding[mesh_.shell(element)] += *crosses * mesh_.turn(element);
       }
     }
-    return is_inside ? MeshSide::kInside : MeshSide::kOutside;
+    const bool is_outside = std::ranges::all_of(winding, [](int number) { return number == 0; });
+    return is_outside ? MeshSide::kOutside : MeshSide::kInside;
   }
 
  private:
@@ -81,8 +83,9 @@ class RayCount {
   }
 
   /// With the corners seen from the origin, det(r, a, b), det(r, b, c) and det(r, c, a) have one sign where the line of
-  /// the ray crosses the triangle inside; then their sum times the distance along r is det(a, b, c).
-  [[nodiscard]] std::optional<bool> crosses(std::uint32_t triangle) const {
+  /// the ray crosses the triangle inside; then their sum times the distance along r is det(a, b, c). Returns that sign,
+  /// which tells from which side the ray comes, or 0 where there is no crossing.
+  [[nodiscard]] std::optional<int> crosses(std::uint32_t triangle) const {
     std::array<Point, 3> corner;
     const auto points = mesh_.points(triangle);
     for (std::size_t n = 0; n < 3; ++n) {
@@ -94,11 +97,11 @@ class RayCount {
       positive += certainly_positive(side) ? 1 : 0;
       negative += certainly_negative(side) ? 1 : 0;
     }
-    if (positive > 0 && negative > 0) return false;
+    if (positive > 0 && negative > 0) return 0;
     const I ahead = determinant(corner[0], corner[1], corner[2]);
     const bool is_positive = certainly_positive(ahead), is_negative = certainly_negative(ahead);
-    if (positive == 3 && (is_positive || is_negative)) return is_positive;
-    if (negative == 3 && (is_positive || is_negative)) return is_negative;
+    if (positive == 3 && (is_positive || is_negative)) return is_positive ? 1 : 0;
+    if (negative == 3 && (is_positive || is_negative)) return is_negative ? -1 : 0;
     return std::nullopt;
   }
 

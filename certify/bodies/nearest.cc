@@ -185,6 +185,13 @@ BodySampler::BodySampler(const Problem& problem) : bodies_(make_body_model<doubl
     for (const Point& x : body.points) reach_ = std::max(reach_, x.norm());
   }
   for (const Point& b : make_model_without_ellipsoid<double>(problem).p_PB) reach_ = std::max(reach_, b.norm());
+  if (!problem.tolerances || problem.tolerances->cable_length_m) return;
+  const auto number = [](const DecimalText& text) { return ScalarTraits<double>::from_decimal(text); };
+  Tolerances& of = tolerances_.emplace();
+  std::ranges::transform(problem.tolerances->base_anchor_m, of.base.begin(), number);
+  std::ranges::transform(problem.tolerances->platform_anchor_m, of.anchor.begin(), number);
+  of.position = number(problem.tolerances->position_m);
+  of.turn = evaluate_constant<double>(problem.tolerances->orientation_rad);
 }
 
 /// Of a half-space no shares, and `apart` along its normal, whose height it is.
@@ -370,45 +377,102 @@ std::vector<Direction> BodySampler::directions(const Model<double>& model, const
 
 namespace {
 
+/// Two points, of which one may be the other.
+using Line = std::array<Point, 2>;
+
 /// Between the nearest points of two segments, from the second to the first.
-Point between_segments(const std::array<Point, 2>& first, const std::array<Point, 2>& second) {
-  const std::array<Vertex, 4> vertices{Vertex{first[0] - second[0]}, Vertex{first[0] - second[1]},
-                                       Vertex{first[1] - second[1]}, Vertex{first[1] - second[0]}};
-  Point best = vertices[0].at;
-  // The difference of two segments is a parallelogram: two triangles.
-  for (const std::array<std::size_t, 3>& of :
-       {std::array<std::size_t, 3>{0, 1, 2}, std::array<std::size_t, 3>{0, 2, 3}}) {
-    const std::array<Vertex, 3> triangle{vertices[of[0]], vertices[of[1]], vertices[of[2]]};
-    const OnSimplex nearest = nearest_on_simplex(triangle);
-    if (nearest.squared < best.squaredNorm()) best = nearest.at;
+Point between_segments(const Line& first, const Line& second) {
+  const Point d = first[1] - first[0], e = second[1] - second[0], r = first[0] - second[0];
+  const double dd = d.squaredNorm(), ee = e.squaredNorm(), de = d.dot(e), dr = d.dot(r), er = e.dot(r);
+  const auto share = [](double part, double whole) { return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0; };
+  double s = share(de * er - dr * ee, dd * ee - de * de);  // where the lines are nearest
+  double t = ee > 0 ? (de * s + er) / ee : 0.0;
+  if (t < 0 || t > 1) {
+    t = std::clamp(t, 0.0, 1.0);
+    s = share(de * t - dr, dd);
+  } else if (!(ee > 0)) {
+    s = share(-dr, dd);
   }
-  return best;
+  return r + s * d - t * e;
 }
 
 }  // namespace
 
-Direction BodySampler::rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
+/// Cables from anchor to anchor, and the middles of bodies, in W.
+struct BodySampler::Sketch {
+  Matrix3<double> r_WP;
+  std::array<Line, kCables> cables;
+  std::vector<Point> middles;  ///< of the platform's bodies
+};
+
+BodySampler::Sketch BodySampler::sketch(const Model<double>& model, const RigidPose& pose) const {
+  Sketch result{pose.q.toRotationMatrix(), {}, {}};
+  for (std::size_t i = 0; i < kCables; ++i) {
+    result.cables[i] = {model.p_WA[i], pose.p + result.r_WP * model.p_PB[i]};
+  }
+  for (const ConvexBody<double>& body : bodies_.platform) {
+    result.middles.emplace_back(pose.p + result.r_WP * body.centre);
+  }
+  return result;
+}
+
+/// Of a half-space, its gap is not looked for.
+BodySampler::RoughDirection BodySampler::rough_direction(const Sketch& at, std::size_t n) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
   if (half_space(pair) != nullptr) return {};
-  const Matrix3<double> r = pose.q.toRotationMatrix();
-  const auto cable = [&](std::size_t i) { return std::array<Point, 2>{model.p_WA[i], pose.p + r * model.p_PB[i]}; };
-  const auto carried_centre = [&](std::size_t k) {
-    const Point at = pose.p + r * bodies_.platform[k].centre;
-    return std::array<Point, 2>{at, at};
-  };
-  const std::array<Point, 2> first =
-      pair.kind == PairClass::kPlatformObstacles ? carried_centre(pair.first) : cable(pair.first);
-  const auto second = [&]() -> std::array<Point, 2> {
-    if (pair.kind == PairClass::kCablesCables) return cable(pair.second);
-    if (pair.kind == PairClass::kCablesPlatform) return carried_centre(pair.second);
+  Line first, second;
+  double needed = pair.clearance;
+  if (pair.kind == PairClass::kPlatformObstacles) {
+    first.fill(at.middles[pair.first]);
+    needed += bodies_.platform[pair.first].reach;
+  } else {
+    first = at.cables[pair.first];
+    needed += bodies_.cable_radius[pair.first];
+  }
+  if (pair.kind == PairClass::kCablesCables) {
+    second = at.cables[pair.second];
+    needed += bodies_.cable_radius[pair.second];
+  } else if (pair.kind == PairClass::kCablesPlatform) {
+    second.fill(at.middles[pair.second]);
+    needed += bodies_.platform[pair.second].reach;
+  } else {
     const auto& body = std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]);
-    if (body.points.size() == 2) return {body.points[0], body.points[1]};
-    return {body.centre, body.centre};
-  };
+    const bool is_segment = body.points.size() == 2;
+    second = is_segment ? Line{body.points[0], body.points[1]} : Line{body.centre, body.centre};
+    needed += body.reach;
+  }
+  Point along = between_segments(first, second);
+  const double lost = ((first[1] - first[0]).norm() + (second[1] - second[0]).norm()) / (2 * Direction::kCoarse);
+  const double gap = along.norm() - needed - lost;
   const bool in_platform = is_best_in_platform(pair);
-  Point along = between_segments(first, second());
-  if (in_platform) along = r.transpose() * along;
-  return rounded_direction(along, in_platform, Direction::kCoarse);
+  if (in_platform) along = at.r_WP.transpose() * along;
+  return {rounded_direction(along, in_platform, Direction::kCoarse), gap};
+}
+
+Direction BodySampler::rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
+  return rough_direction(sketch(model, pose), n).direction;
+}
+
+PairDirections BodySampler::first_directions(const Model<double>& model, const RigidPose& middle,
+                                             const std::array<RigidPose, 2>& ends) const {
+  const Sketch at = sketch(model, middle);
+  double moved = 0;
+  for (const RigidPose& end : ends) {
+    moved = std::max(moved, (end.p - middle.p).norm() + end.q.angularDistance(middle.q) * reach_);
+  }
+  PairDirections result;
+  result.single.reserve(bodies_.pairs.size());
+  for (std::size_t n = 0; n < bodies_.pairs.size(); ++n) {
+    const RoughDirection rough = rough_direction(at, n);
+    Direction chosen = rough.direction;
+    const bool has_list = needs_list(n);
+    if (!(rough.gap > moved) && !has_list && half_space(bodies_.pairs[n]) == nullptr) {
+      chosen = direction(model, middle, n, Direction::kFine, ends).value_or(chosen);
+    }
+    result.single.push_back(chosen);
+    if (has_list) result.lists[n] = {chosen};
+  }
+  return result;
 }
 
 PointPair BodySampler::nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const {
@@ -519,8 +583,56 @@ double gap_of_boxes(const BodyModel<double>& bodies, const Model<double>& model,
 
 }  // namespace
 
+/// How much of a pair's gap deviations take, from where on the bodies their nearest points are: as they
+/// move them in the axes, the world's or the platform's, in which that is less.
+double BodySampler::lost(const Model<double>& model, const RigidPose& pose, std::size_t n, const Found& found) const {
+  if (!tolerances_) return 0;
+  const Tolerances& of = *tolerances_;
+  const CheckedPair<double>& pair = bodies_.pairs[n];
+  if (pair.kind == PairClass::kPlatformObstacles) {
+    const ConvexBody<double>& body = bodies_.platform[pair.first];
+    const bool has_shares = body.mesh == nullptr && found.nearest.first.size() == body.points.size();
+    Point nearest{0, 0, 0};
+    for (std::size_t k = 0; has_shares && k < body.points.size(); ++k) {
+      nearest += found.nearest.first[k] * body.points[k];
+    }
+    // What is nearest to it on the obstacle may be nearer to the platform's origin.
+    return of.position + of.turn * std::max(0.0, nearest.norm() - found.nearest.distance);
+  }
+  std::array<double, 2> moved{0, 0};  // in W, in P
+  const auto add_cable = [&](std::size_t i, const std::vector<double>& shares) {
+    if (shares.size() != 2) return;
+    const double base = pair.shares_base ? 0 : of.base[i], anchor = pair.shares_platform ? 0 : of.anchor[i];
+    const double by_pose = of.position + of.turn * model.p_PB[i].norm();
+    const double by_base_pose = of.position + of.turn * (model.p_WA[i] - pose.p).norm();
+    moved[0] += shares[0] * base + shares[1] * (anchor + by_pose);
+    moved[1] += shares[0] * (base + by_base_pose) + shares[1] * anchor;
+  };
+  add_cable(pair.first, found.nearest.first);
+  if (pair.kind == PairClass::kCablesObstacles) return moved[0];
+  if (pair.kind == PairClass::kCablesPlatform) return moved[1];
+  add_cable(pair.second, found.nearest.second);
+  return std::min(moved[0], moved[1]);
+}
+
+double BodySampler::room(const Model<double>& model, const RigidPose& pose, std::size_t pair) const {
+  const Found found = find(model, pose, pair);
+  return found.nearest.distance - found.needed - lost(model, pose, pair, found);
+}
+
+/// No less than lost() of any pair.
+double BodySampler::most_lost(const Model<double>& model, const RigidPose& pose) const {
+  if (!tolerances_) return 0;
+  double far = reach_;
+  for (const Point& a : model.p_WA) far = std::max(far, (a - pose.p).norm());
+  return 2 * (std::ranges::max(tolerances_->base) + std::ranges::max(tolerances_->anchor) + tolerances_->position +
+              tolerances_->turn * far);
+}
+
 bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Carried& carried) const {
   carried.pairs.resize(bodies_.pairs.size());
+  const Sketch at = sketch(model, pose);
+  const double most = most_lost(model, pose);
   for (std::size_t n = 0; n < bodies_.pairs.size(); ++n) {
     std::optional<Carried::Gap>& last = carried.pairs[n];
     if (last) {
@@ -529,9 +641,10 @@ bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Ca
           bodies_moving * ((pose.p - last->pose.p).norm() + pose.q.angularDistance(last->pose.q) * reach_);
       if (moved < last->gap) continue;
     }
-    // Boxes around meshes may tell at once.
-    const double rough = needs_list(n) ? gap_of_boxes(bodies_, model, pose, n) : 0;
-    last = {rough > 0 ? rough : gap(model, pose, n), pose};
+    // Boxes around meshes, and balls around other bodies, may tell at once.
+    double left = (needs_list(n) ? gap_of_boxes(bodies_, model, pose, n) : rough_direction(at, n).gap) - most;
+    if (!(left > 0)) left = room(model, pose, n);
+    last = {left, pose};
     if (!(last->gap > 0)) return false;
   }
   return true;

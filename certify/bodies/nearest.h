@@ -35,6 +35,9 @@ class BodySampler {
   /// How much farther than its clearance a pair is apart at a pose [m]; where hulls meet, minus radii and clearance;
   /// where a part of one body is inside of the other, a watertight mesh, minus how far surfaces are apart as well.
   [[nodiscard]] double gap(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
+  /// gap() less what deviations within the tolerances take of it, no more than that: a pair without room can't be
+  /// proved to be clear.
+  [[nodiscard]] double room(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
   /// Along which a pair is farthest apart at a pose, with components up to `largest`; nothing where hulls meet.
   [[nodiscard]] std::optional<Direction> direction(const Model<double>& model, const RigidPose& pose, std::size_t pair,
                                                    int largest = Direction::kLargest,
@@ -45,6 +48,10 @@ class BodySampler {
                                                   int largest, double share, std::span<const RigidPose> around) const;
   /// One along which a pair may well be apart there, from its bodies' axes and middles: much cheaper.
   [[nodiscard]] Direction rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
+  /// Of all pairs those to try first on a way from end to end: rough ones where it seems that they will do, else those
+  /// along which pairs are farthest apart in the middle.
+  [[nodiscard]] PairDirections first_directions(const Model<double>& model, const RigidPose& middle,
+                                                const std::array<RigidPose, 2>& ends) const;
   /// Its nearest points there.
   [[nodiscard]] PointPair nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
 
@@ -65,7 +72,7 @@ class BodySampler {
     };
     std::vector<std::optional<Gap>> pairs;
   };
-  /// Whether all pairs are farther apart than their clearances. @param carried  from earlier poses; at first empty
+  /// Whether all pairs have room(). @param carried  from earlier poses; at first empty
   [[nodiscard]] bool is_clear(const Model<double>& model, const RigidPose& pose, Carried& carried) const;
 
  private:
@@ -75,9 +82,27 @@ class BodySampler {
                                            const RigidPose& pose, std::span<const RigidPose> around) const;
   [[nodiscard]] std::array<BodyInFrame, 2> in_world(const Model<double>& model, const RigidPose& pose,
                                                     std::size_t pair) const;
+  struct Sketch;
+  [[nodiscard]] Sketch sketch(const Model<double>& model, const RigidPose& pose) const;
+  /// A direction, and how far apart balls around bodies and whole cables are along it, less the clearance; a guess.
+  struct RoughDirection {
+    Direction direction;
+    double gap = 0;
+  };
+  [[nodiscard]] RoughDirection rough_direction(const Sketch& at, std::size_t pair) const;
   struct Found;
   [[nodiscard]] Found find(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
+  [[nodiscard]] double lost(const Model<double>& model, const RigidPose& pose, std::size_t pair,
+                            const Found& found) const;
+  [[nodiscard]] double most_lost(const Model<double>& model, const RigidPose& pose) const;
 
+  /// Greatest deviations [m, rad].
+  struct Tolerances {
+    std::array<double, kCables> base{}, anchor{};
+    double position = 0;
+    double turn = 0;
+  };
+  std::optional<Tolerances> tolerances_;  ///< unless they are none, or of cables' lengths
   BodyModel<double> bodies_;
   double reach_ = 0;  ///< of what the platform carries, from its origin [m]
 };

@@ -50,10 +50,9 @@ inline constexpr const char* kBodiesClause =
 /// Follows kBodiesClause and what comes with it, where a body is a mesh.
 inline constexpr const char* kMeshClause =
     " A mesh is made of the triangles, segments and points that the faces of its file have, the file being the one "
-    "with "
-    "the stated SHA-256. If each edge of its triangles belongs to exactly two of them, the points inside of it are "
-    "part "
-    "of the body, too: those from which a ray crosses its triangles an odd number of times. Else there is no inside.";
+    "with the stated SHA-256. If each edge of its triangles belongs to exactly two of them, and each part of it that "
+    "hangs together by edges has two sides, the points inside of it are part of the body, too: those about which the "
+    "winding number of such a part is not 0. Else there is no inside.";
 
 /// The classes of pairs, in the order in which certificates count them.
 inline constexpr std::array kPairClassNames = {"platform-obstacles", "cables-obstacles", "cables-cables",

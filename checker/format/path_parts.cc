@@ -283,6 +283,35 @@ Apart Segment::apart_of(std::size_t box) const {
   return result;
 }
 
+namespace {
+
+/// The rest of a witness that two bodies are too close.
+template <class ReadMotion>
+void read_contact(const Cursor& json, const Problem& problem, const Path& path, const ReadMotion& read_motion,
+                  Witness& witness) {
+  const auto ignore = [](const Cursor&) {};
+  const std::size_t n = unknowns(problem, path);
+  json["kind"].require(problem.bodies && !problem.bodies->pairs.empty(), "no contact where no pair is checked");
+  const auto last = static_cast<std::int64_t>(problem.bodies->pairs.size()) - 1;
+  const auto read_weights = [&](const Cursor& weights) {
+    witness.weights = read_contact_weights(weights, witness.pair, witness.inside, problem);
+  };
+  const auto read_elements = [&](const Cursor& elements) {
+    witness.elements = read_contact_elements(elements, witness.pair, witness.inside, problem);
+  };
+  const auto read_inside = [&](const Cursor& inside) {
+    witness.inside = read_contact_inside(inside, witness.pair, problem);
+  };
+  json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "inside?", read_inside, "weights", read_weights,
+              "elements?", read_elements, "depth_m", witness.depth, "at", witness_point(witness.at, path), "proof",
+              proof(witness.at_box, witness.at, n), "motion", read_motion);
+  json["depth_m"].require(witness.depth >= 0, "a depth >= 0");
+  const bool has_mesh = problem.bodies->has_mesh(problem.bodies->pairs[witness.pair]);
+  json.require(json.has("elements") == has_mesh, "the key 'elements' where a body of the pair is a mesh");
+}
+
+}  // namespace
+
 Witness read_witness(const Cursor& json, const Problem& problem, const Path& path) {
   static constexpr std::array<std::pair<const char*, WitnessKind>, 6> kKinds = {
       {{"tension_min", WitnessKind::kTensionMin},
@@ -310,23 +339,7 @@ Witness read_witness(const Cursor& json, const Problem& problem, const Path& pat
     return witness;
   }
   if (witness.kind == WitnessKind::kContact) {
-    json["kind"].require(problem.bodies && !problem.bodies->pairs.empty(), "no contact where no pair is checked");
-    const auto last = static_cast<std::int64_t>(problem.bodies->pairs.size()) - 1;
-    const auto read_weights = [&](const Cursor& weights) {
-      witness.weights = read_contact_weights(weights, witness.pair, witness.inside, problem);
-    };
-    const auto read_elements = [&](const Cursor& elements) {
-      witness.elements = read_contact_elements(elements, witness.pair, witness.inside, problem);
-    };
-    const auto read_inside = [&](const Cursor& inside) {
-      witness.inside = read_contact_inside(inside, witness.pair, problem);
-    };
-    json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "inside?", read_inside, "weights", read_weights,
-                "elements?", read_elements, "depth_m", witness.depth, "at", witness_point(witness.at, path), "proof",
-                proof(witness.at_box, witness.at, n), "motion", read_motion);
-    json["depth_m"].require(witness.depth >= 0, "a depth >= 0");
-    const bool has_mesh = problem.bodies->has_mesh(problem.bodies->pairs[witness.pair]);
-    json.require(json.has("elements") == has_mesh, "the key 'elements' where a body of the pair is a mesh");
+    read_contact(json, problem, path, read_motion, witness);
     return witness;
   }
   mpq_class limit;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/kernel/mesh_inside.h"
 
+#include <algorithm>
+#include <map>
+#include <optional>
+
 namespace taut::checker {
 namespace {
 
@@ -25,9 +29,9 @@ bool misses(const Vector3<Ball>& lower, const Vector3<Ball>& upper, const std::a
   return false;
 }
 
-enum class Crossing { kNone, kOne, kUnknown };
-
-Crossing crossing(const Vector3<Ball>& a, const Vector3<Ball>& b, const Vector3<Ball>& c, const Vector3<Ball>& r) {
+/// 1 or -1 where the ray crosses the triangle, by the side from which it does; 0 where it certainly does not.
+std::optional<int> crossing(const Vector3<Ball>& a, const Vector3<Ball>& b, const Vector3<Ball>& c,
+                            const Vector3<Ball>& r) {
   const std::array<Ball, 3> sides = {determinant(r, a, b), determinant(r, b, c), determinant(r, c, a)};
   bool is_positive = true, is_negative = true, has_positive = false, has_negative = false;
   for (const Ball& side : sides) {
@@ -36,16 +40,16 @@ Crossing crossing(const Vector3<Ball>& a, const Vector3<Ball>& b, const Vector3<
     is_positive = is_positive && certainly_positive(side);
     is_negative = is_negative && certainly_negative(side);
   }
-  if (has_positive && has_negative) return Crossing::kNone;
-  if (!is_positive && !is_negative) return Crossing::kUnknown;
+  if (has_positive && has_negative) return 0;
+  if (!is_positive && !is_negative) return std::nullopt;
   const Ball ahead = is_positive ? determinant(a, b, c) : -determinant(a, b, c);
-  if (certainly_positive(ahead)) return Crossing::kOne;
-  return certainly_negative(ahead) ? Crossing::kNone : Crossing::kUnknown;
+  if (certainly_positive(ahead)) return is_positive ? 1 : -1;
+  return certainly_negative(ahead) ? std::optional(0) : std::nullopt;
 }
 
 Side side_along(const Surface& surface, const Vector3<Ball>& point, const std::array<int, 3>& r) {
   const Vector3<Ball> ray = {Ball(r[0]), Ball(r[1]), Ball(r[2])};
-  bool is_odd = false;
+  std::map<std::uint32_t, int> winding;  // by shell
   std::vector<std::uint32_t> open = {0};
   while (!open.empty()) {
     const Surface::Node& node = surface.nodes()[open.back()];
@@ -59,12 +63,15 @@ Side side_along(const Surface& surface, const Vector3<Ball>& point, const std::a
       const std::uint32_t element = surface.in_order(k);
       if (element >= surface.triangles()) continue;  // a needle
       const auto corners = surface.corners(element);
-      const Crossing found = crossing(from(point, corners[0]), from(point, corners[1]), from(point, corners[2]), ray);
-      if (found == Crossing::kUnknown) return Side::kUnknown;
-      if (found == Crossing::kOne) is_odd = !is_odd;
+      const std::optional<int> found =
+          crossing(from(point, corners[0]), from(point, corners[1]), from(point, corners[2]), ray);
+      if (!found) return Side::kUnknown;
+      const Surface::Shell shell = surface.shell(element);
+      if (*found != 0) winding[shell.index] += shell.is_reversed ? -*found : *found;
     }
   }
-  return is_odd ? Side::kInside : Side::kOutside;
+  const bool is_outside = std::ranges::all_of(winding, [](const auto& shell) { return shell.second == 0; });
+  return is_outside ? Side::kOutside : Side::kInside;
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "checker/kernel/errors.h"
@@ -68,17 +68,50 @@ std::uint32_t Surface::add_node(std::uint32_t begin, std::uint32_t end) {
   return here;
 }
 
+/// Joins triangles over their edges. Two triangles turn the same way if they pass their edge in opposite directions.
 void Surface::find_edges() {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (std::size_t t = 0; t < triangles_; ++t) {
-    for (std::size_t c = 0; c < 3; ++c) edges.push_back(std::minmax({elements_[t][c], elements_[t][(c + 1) % 3]}));
+  struct Edge {
+    std::uint32_t low, high, triangle;
+    bool is_rising;
+    auto operator<=>(const Edge&) const = default;
+  };
+  std::vector<Edge> edges;
+  for (std::uint32_t t = 0; t < triangles_; ++t) {
+    shells_.push_back({t, false});
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t from = elements_[t][c], to = elements_[t][(c + 1) % 3];
+      edges.push_back({std::min(from, to), std::max(from, to), t, from < to});
+    }
   }
+  // Until all are joined, a shell's index is another triangle of it, or the triangle itself; reversed against that.
+  const auto leader = [&](std::uint32_t t) {
+    bool is_reversed = false;
+    for (; shells_[t].index != t; t = shells_[t].index) {
+      Shell& way = shells_[t];
+      const Shell next = shells_[way.index];
+      way = {next.index, way.is_reversed != next.is_reversed};
+      is_reversed = is_reversed != way.is_reversed;
+    }
+    return Shell{t, is_reversed};
+  };
   std::ranges::sort(edges);
-  for (std::size_t k = 0; k < edges.size(); ++k) {
-    const bool has_twin = (k > 0 && edges[k] == edges[k - 1]) || (k + 1 < edges.size() && edges[k] == edges[k + 1]);
-    const bool is_third = k > 1 && edges[k] == edges[k - 2];
-    if (!has_twin || is_third) is_closed_ = false;
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    const Edge& one = edges[begin];
+    while (end < edges.size() && edges[end].low == one.low && edges[end].high == one.high) ++end;
+    if (end - begin != 2) {
+      is_closed_ = false;
+      continue;
+    }
+    const Edge& other = edges[begin + 1];
+    const Shell a = leader(one.triangle), b = leader(other.triangle);
+    const bool is_reversed = (a.is_reversed != b.is_reversed) != (one.is_rising == other.is_rising);
+    if (a.index != b.index) {
+      shells_[b.index] = {a.index, is_reversed};
+    } else if (is_reversed) {
+      is_closed_ = false;  // a surface with one side
+    }
   }
+  for (std::uint32_t t = 0; t < triangles_; ++t) shells_[t] = leader(t);
 }
 
 void Surface::find_parts() {

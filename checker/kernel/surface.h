@@ -38,8 +38,15 @@ class Surface {
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  ///< the first contains all
   [[nodiscard]] std::uint32_t in_order(std::uint32_t k) const { return order_[k]; }
 
-  /// Whether each edge belongs to exactly two triangles.
+  /// Whether each edge belongs to exactly two triangles, and each shell has two sides.
   [[nodiscard]] bool is_closed() const { return is_closed_; }
+  /// Of a triangle: which shell it belongs to, of the parts that hang together by edges, and whether its corners have
+  /// to be taken the other way round, so that all triangles of the shell turn the same way. @pre is_closed()
+  struct Shell {
+    std::uint32_t index = 0;
+    bool is_reversed = false;
+  };
+  [[nodiscard]] Shell shell(std::size_t triangle) const { return shells_.at(triangle); }
   /// Of each part whose elements hang together by their points, one of these.
   [[nodiscard]] const std::vector<Point>& parts() const { return parts_; }
 
@@ -54,6 +61,7 @@ class Surface {
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
   bool is_closed_ = true;
+  std::vector<Shell> shells_;  ///< by triangle
   std::vector<Point> parts_;
 };
 

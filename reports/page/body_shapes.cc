@@ -47,15 +47,10 @@ std::vector<BodyShape> body_shapes(const ReportContext& scene) {
   if (!scene.bodies) return result;
   const BodiesText& text = *scene.certificate.problem.bodies;
   const BodyModel<double>& model = scene.bodies->bodies();
-  const auto& meshes = scene.illustration.meshes;
   const auto add = [&](const BodyText& body, BodyShape shape, bool is_obstacle) {
     shape.name = body.name;
     shape.is_obstacle = is_obstacle;
-    if (const auto mesh = meshes.find(body.name); mesh != meshes.end()) {
-      shape.mesh = &mesh->second;
-    } else if (std::holds_alternative<MeshText>(body.shape)) {
-      return;
-    }
+    if (std::holds_alternative<MeshText>(body.shape)) shape.mesh = &scene.shown_meshes.at(body.name);
     result.push_back(std::move(shape));
   };
   for (std::size_t k = 0; k < text.obstacles.size(); ++k) add(text.obstacles[k], shape_of(model.obstacles[k]), true);

@@ -18,14 +18,14 @@ struct BodyShape {
   bool is_half_space = false;       ///< { normal·x <= offset }, in place of both
   Eigen::Vector3d normal{0, 0, 1};  ///< of length 1
   double offset = 0;                ///< [m]
-  const ShownBody* mesh = nullptr;  ///< in place of all: triangles, as the illustration has them
+  const ShownBody* mesh = nullptr;  ///< in place of all: triangles
 
   /// The corners of a box that contains all of it, in its own axes; none of a half-space.
   [[nodiscard]] std::vector<Eigen::Vector3d> box() const;
 };
 
-/// The obstacles, then the bodies of the platform; none where the problem has none. A mesh that the illustration does
-/// not have is left out.
+/// The obstacles, then the bodies of the platform; none where the problem has none. Meshes are those that the
+/// checker was given.
 [[nodiscard]] std::vector<BodyShape> body_shapes(const ReportContext& scene);
 
 /// "obstacles: floor, stack", in quotes; at most `most` names. Nothing where there are none.

@@ -34,6 +34,11 @@ Html bodies_words(const BodiesText& bodies) {
   list("On the platform", bodies.platform);
   list("Obstacles", bodies.obstacles);
   if (!statement.cables.empty()) text += html(" {}", with_minus_signs(statement.cables));
+  const std::vector<std::string> open = bodies_without_inside(bodies);
+  if (!open.empty()) {
+    text += html(" <b>Only the surface is checked, not what is inside, of <bdi>{}</bdi>: not a closed mesh.</b>",
+                 fmt::format("{}", fmt::join(open, ", ")));
+  }
   return text + html(" <a class=\"more\" href=\"#robot\">each body</a>");
 }
 

@@ -2,6 +2,7 @@
 #include "reports/summary/bodies_statement.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -153,13 +154,27 @@ std::string body_text(const BodyText& body, bool is_obstacle) {
     text += fmt::format("the mesh {}, whose unit is {}{}", quoted_name(mesh.file), exact_length(mesh.unit_m),
                         placement_text(body));
   }
+  if (has_no_inside(body)) text += "; it has no inside: only its surface is checked";
   if (body.clearance_m) text += fmt::format("; clearance {}", exact_length(*body.clearance_m));
   return text;
 }
 
+/// "200 mm", or "10 mm to 200 mm, as some have their own".
+std::string clearance_text(const DecimalText& of_class, const std::vector<BodyPair>& all, PairClass kind) {
+  std::vector<Rational> clearances;
+  for (const BodyPair& pair : all) {
+    if (pair.kind == kind) clearances.push_back(parse_rational(pair.clearance_m));
+  }
+  if (clearances.empty()) return exact_length(of_class);
+  const auto [least, most] = std::ranges::minmax(clearances);
+  if (least == most) return exact_length(least);
+  return fmt::format("{} to {}, as some have their own", exact_length(least), exact_length(most));
+}
+
 std::string checked_text(const BodiesText& bodies) {
   std::array<std::size_t, kPairClasses> counts{};
-  for (const BodyPair& pair : pairs(bodies)) ++counts[static_cast<std::size_t>(pair.kind)];
+  const std::vector<BodyPair> all = pairs(bodies);
+  for (const BodyPair& pair : all) ++counts[static_cast<std::size_t>(pair.kind)];
   std::vector<std::string> checked, others;
   for (const PairClass kind : all_pair_classes()) {
     const auto k = static_cast<std::size_t>(kind);
@@ -167,8 +182,8 @@ std::string checked_text(const BodiesText& bodies) {
       others.emplace_back(words_of(kind));
       continue;
     }
-    checked.push_back(
-        fmt::format("{}, {}, {}", words_of(kind), plural(counts[k], "pair"), exact_length(*bodies.clearance_m[k])));
+    checked.push_back(fmt::format("{}, {}, {}", words_of(kind), plural(counts[k], "pair"),
+                                  clearance_text(*bodies.clearance_m[k], all, kind)));
   }
   std::string text = checked.empty() ? "" : fmt::format("Pairs and their clearances: {}.", fmt::join(checked, "; "));
   if (others.empty()) return text;
@@ -194,8 +209,9 @@ std::string cables_text(const BodiesText& bodies) {
 }
 
 /// What was repaired, and whether there is an inside.
-std::string mesh_note(const std::string& body, const LoadedMesh& loaded, const Rational& unit_m) {
+std::string mesh_note(const BodyText& body, const LoadedMesh& loaded) {
   const MeshReport& report = loaded.report;
+  const Rational unit_m = parse_rational(std::get<MeshText>(body.shape).unit_m);
   const auto millimetres_of = [&](double x) {
     return fmt::format("{:.6g}", x * Rational(unit_m * 1000).convert_to<double>() + 0.0);
   };
@@ -203,15 +219,15 @@ std::string mesh_note(const std::string& body, const LoadedMesh& loaded, const R
     return fmt::format("({}, {}, {})", millimetres_of(p[0]), millimetres_of(p[1]), millimetres_of(p[2]));
   };
   std::string text =
-      fmt::format("{}: {}, from {} to {} mm in its own axes", quoted_name(body),
+      fmt::format("{}: {}, from {} to {} mm in its own axes", quoted_name(body.name),
                   plural(loaded.mesh.triangles.size(), "triangle"), corner(report.lower), corner(report.upper));
   text += report.is_watertight() ? fmt::format(", watertight, {}", plural(report.closed_components, "closed part"))
                                  : fmt::format(
                                        ", not watertight: {} of one triangle, {} of more than two: it has no "
                                        "inside, and only its surface is checked",
                                        plural(report.edges_of_one, "edge"), report.edges_of_many);
-  if (report.is_watertight() && report.closed_components > 1) {
-    text += ": where these overlap, or one is in another, counts as outside";
+  if (report.is_watertight() && has_no_inside(body)) {
+    text += ", but a part has one side only: it has no inside, and only its surface is checked";
   }
   std::vector<std::string> repairs;
   const auto add = [&](std::size_t count, const char* what, const char* done) {
@@ -243,6 +259,21 @@ const char* words_of(PairClass kind) {
     case PairClass::kCablesPlatform: break;
   }
   return "cables and platform";
+}
+
+bool has_no_inside(const BodyText& body) {
+  const auto* mesh = std::get_if<MeshText>(&body.shape);
+  return mesh != nullptr && mesh->mesh != nullptr && !mesh->mesh->is_watertight();
+}
+
+std::vector<std::string> bodies_without_inside(const BodiesText& bodies) {
+  std::vector<std::string> names;
+  for (const auto* list : {&bodies.obstacles, &bodies.platform}) {
+    for (const BodyText& body : *list) {
+      if (has_no_inside(body)) names.push_back(quoted_name(body.name));
+    }
+  }
+  return names;
 }
 
 std::vector<PairClass> unchecked_classes(const BodiesText& bodies) {
@@ -284,7 +315,7 @@ BodiesStatement bodies_statement(const CaseBodies& bodies) {
   for (const MeshOfBody& mesh : bodies.meshes) {
     const BodyText* body = find_body(bodies.text, mesh.body);
     if (!body) continue;
-    result.notes.push_back(mesh_note(mesh.body, *mesh.mesh, parse_rational(std::get<MeshText>(body->shape).unit_m)));
+    result.notes.push_back(mesh_note(*body, *mesh.mesh));
   }
   return result;
 }

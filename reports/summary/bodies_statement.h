@@ -33,6 +33,10 @@ struct BodiesStatement {
 [[nodiscard]] std::string pair_words(const BodiesText& bodies, const BodyPair& pair);
 /// "platform and obstacles", "cables and obstacles", "cables among each other", "cables and platform".
 [[nodiscard]] const char* words_of(PairClass kind);
+/// Whether a body is a mesh, which was read, without an inside: only its surface is checked.
+[[nodiscard]] bool has_no_inside(const BodyText& body);
+/// The quoted names of those.
+[[nodiscard]] std::vector<std::string> bodies_without_inside(const BodiesText& bodies);
 /// The classes of pairs that are not checked.
 [[nodiscard]] std::vector<PairClass> unchecked_classes(const BodiesText& bodies);
 /// For JSON: `checked`, a list of `class`, `pairs` and `clearance_m`, `not_checked`, a list of classes, and `text`, the

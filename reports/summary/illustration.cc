@@ -56,7 +56,6 @@ Illustration::Illustration(const nlohmann::json& json, std::size_t parameters) {
   if (illustration.contains("decoration")) {
     decoration = decoration_from_json(illustration.at("decoration").value());
   }
-  if (illustration.contains("meshes")) meshes = meshes_from_json(illustration.at("meshes").value());
   if (illustration.contains("stats") && illustration.at("stats").value().is_object()) {
     for (const auto& [key, value] : illustration.value()["stats"].items()) {
       stats[key] = value.is_string() ? value.get<std::string>() : value.dump();

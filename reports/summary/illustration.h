@@ -31,7 +31,6 @@ struct Illustration {
   FileLines lines;                           ///< of an audited file, where waypoints stand
   DocumentFields document_fields;            ///< the case's, for the head of the report
   Decoration decoration;                     ///< the case's, for its pictures
-  std::map<std::string, ShownBody> meshes;   ///< the case's bodies that are meshes, by their names: where they stand
 
   Illustration() = default;
   /// @throws InputError for a missing key or a wrong type.

@@ -164,6 +164,7 @@ ReportContext::ReportContext(Certificate stated, Recheck checked)
                      ranges.missing == 0 && std::ranges::all_of(boxes, is_covered);
   gravest = gravest_of(certificate);
   if (bodies) distances = distances_along(*bodies, sampler, samples);
+  if (bodies) shown_meshes = taut::shown_meshes(*certificate.problem.bodies);
 }
 
 bool found_no_path(const Certificate& certificate) {

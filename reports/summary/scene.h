@@ -2,6 +2,7 @@
 // Everything that a report is made from: the certificate, and floating-point samples of its path.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "reports/summary/illustration.h"
 #include "reports/summary/report_options.h"
 #include "reports/summary/samples.h"
+#include "reports/summary/shown_bodies.h"
 #include "reports/summary/travel.h"
 
 namespace taut {
@@ -30,10 +32,11 @@ struct ReportContext {
   Illustration illustration;
   std::vector<std::vector<DyadicBox>> boxes;  ///< of each segment
   Sampler sampler;
-  std::vector<PathSample> samples;      ///< along the whole path
-  std::optional<BodyDistances> bodies;  ///< in floating point; where the problem has bodies
-  DistancesAlong distances;             ///< of them at `samples`
-  Travel travel;                        ///< how far into the move a place is
+  std::vector<PathSample> samples;                ///< along the whole path
+  std::optional<BodyDistances> bodies;            ///< in floating point; where the problem has bodies
+  DistancesAlong distances;                       ///< of them at `samples`
+  std::map<std::string, ShownBody> shown_meshes;  ///< the meshes that were checked, by their bodies' names
+  Travel travel;                                  ///< how far into the move a place is
   /// Enclosures over the certificate's boxes, computed anew without floating point, and no wider than the margins that
   /// the certificate states of each segment: proved where the certificate is right.
   PathRanges ranges;

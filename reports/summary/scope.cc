@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reports/summary/scope.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "problem/decimal.h"
@@ -33,6 +35,13 @@ ScopeItem collisions(const std::optional<BodiesText>& bodies) {
     item.brief += "; of " + classes;
     item.text += " Collisions of " + classes + ".";
     item.goal += " Nor do these touch: " + classes + ".";
+  }
+  if (const std::vector<std::string> open = bodies_without_inside(*bodies); !open.empty()) {
+    const std::string names = fmt::format("{}", fmt::join(open, ", "));
+    item.brief += "; what is inside of " + names + ", whose surface is not closed";
+    item.text +=
+        " Whether anything is inside of " + names + ": the mesh is not closed, so only its surface is checked.";
+    item.goal += " Nothing is inside of " + names + ".";
   }
   const bool has_cables = bodies->clearance_m[1] || bodies->clearance_m[2] || bodies->clearance_m[3];
   if (has_cables && has_free_ends(*bodies)) {

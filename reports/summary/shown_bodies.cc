@@ -128,28 +128,13 @@ ShownBody shown_mesh(const TriangleMesh& mesh, const BodyText& body) {
   return result;
 }
 
-std::map<std::string, ShownBody> shown_meshes(const CaseBodies& bodies) {
+std::map<std::string, ShownBody> shown_meshes(const BodiesText& bodies) {
   std::map<std::string, ShownBody> result;
-  for (const MeshOfBody& mesh : bodies.meshes) {
-    for (const auto* list : {&bodies.text.platform, &bodies.text.obstacles}) {
-      const auto body = std::ranges::find(*list, mesh.body, &BodyText::name);
-      if (body != list->end()) result.emplace(mesh.body, shown_mesh(mesh.mesh->mesh, *body));
+  for (const auto* list : {&bodies.platform, &bodies.obstacles}) {
+    for (const BodyText& body : *list) {
+      const auto* mesh = std::get_if<MeshText>(&body.shape);
+      if (mesh != nullptr && mesh->mesh != nullptr) result.emplace(body.name, shown_mesh(mesh->mesh->mesh(), body));
     }
-  }
-  return result;
-}
-
-nlohmann::json to_json(const std::map<std::string, ShownBody>& meshes) {
-  nlohmann::json result = nlohmann::json::object();
-  for (const auto& [name, body] : meshes) result[name] = to_json(body);
-  return result;
-}
-
-std::map<std::string, ShownBody> meshes_from_json(const nlohmann::json& meshes) {
-  std::map<std::string, ShownBody> result;
-  if (!meshes.is_object()) return result;
-  for (const auto& [name, json] : meshes.items()) {
-    if (auto body = shown_body_from_json(json)) result.emplace(name, *std::move(body));
   }
   return result;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bodies that a report's pictures show beside the machine, as a certificate's illustration carries them. Nothing
-// checks them.
+// What a report's pictures show of bodies of triangles: decoration, which a certificate's illustration carries and
+// nothing checks, and meshes that the checker was given.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "case/bodies.h"
 #include "case/decoration.h"
+#include "problem/bodies.h"
 
 namespace taut {
 
@@ -23,13 +23,8 @@ namespace taut {
 /// What a picture shows of a mesh, placed as its body is: of one with too many triangles a coarser one, in which points
 /// that are next to each other are one.
 [[nodiscard]] ShownBody shown_mesh(const TriangleMesh& mesh, const BodyText& body);
-/// The meshes among the bodies of a case, by their names.
-[[nodiscard]] std::map<std::string, ShownBody> shown_meshes(const CaseBodies& bodies);
-
-/// The object `meshes` of an illustration: bodies of the platform in its axes, obstacles in the world's.
-[[nodiscard]] nlohmann::json to_json(const std::map<std::string, ShownBody>& meshes);
-/// Reads it, as decoration_from_json() does.
-[[nodiscard]] std::map<std::string, ShownBody> meshes_from_json(const nlohmann::json& meshes);
+/// The meshes that were read among some bodies, by these bodies' names.
+[[nodiscard]] std::map<std::string, ShownBody> shown_meshes(const BodiesText& bodies);
 
 /// The edges that show a body's form, as pairs of points: those at which it turns by more than 30 degrees, and its
 /// rims.

@@ -156,6 +156,16 @@ Problem crane() {
   return problem;
 }
 
+Problem deviating_crane() {
+  Problem problem = crane();
+  problem.tolerances.emplace();
+  problem.tolerances->base_anchor_m.fill("0.01");
+  problem.tolerances->platform_anchor_m.fill("0.01");
+  problem.tolerances->position_m = "0.05";
+  problem.tolerances->orientation_rad = "0.3*pi/180";
+  return problem;
+}
+
 /// Bodies in W at a pose, of one machine.
 struct Placed {
   std::vector<Point> points;
@@ -334,15 +344,7 @@ void expect_bounds(const Problem& problem, bool deviates, unsigned seed) {
 
 TEST(BodyGaps, AreNoLargerThanTheGapsOfPosesAlongTheSegment) { expect_bounds(crane(), false, 2); }
 
-TEST(BodyGaps, AreNoLargerThanTheGapsOfDeviatingMachines) {
-  Problem problem = crane();
-  problem.tolerances.emplace();
-  problem.tolerances->base_anchor_m.fill("0.01");
-  problem.tolerances->platform_anchor_m.fill("0.01");
-  problem.tolerances->position_m = "0.05";
-  problem.tolerances->orientation_rad = "0.3*pi/180";
-  expect_bounds(problem, true, 3);
-}
+TEST(BodyGaps, AreNoLargerThanTheGapsOfDeviatingMachines) { expect_bounds(deviating_crane(), true, 3); }
 
 // ---- Segments -------------------------------------------------------------------------------------------------------
 
@@ -366,6 +368,67 @@ TEST(Prover, DecidesAClearanceToAHundredthOfAMillimetre) {
   for (const auto& [height, expected] : {std::pair{6.30001, Verdict::kProved}, {6.29999, Verdict::kRefuted}}) {
     const SegmentProof proof = Prover(crane()).prove(at({-4, 0, height, 0, 0, 0}), at({4, 0, height, 0, 0, 0}));
     EXPECT_EQ(proof.verdict, expected) << height << ": " << proof.reason;
+  }
+}
+
+TEST(Prover, LooksForNothingThatRefutesIfAProofIsAllThatIsWanted) {
+  const Prover prover(crane());
+  const auto verdict = [&](double height, ProofAim aim) {
+    const SegmentProof proof =
+        prover.prove(at({-4, 0, height, 0, 0, 0}), at({4, 0, height, 0, 0, 0}), 0, std::stop_token{}, aim);
+    EXPECT_EQ(proof.witness.has_value(), proof.verdict == Verdict::kRefuted);
+    return proof.verdict;
+  };
+  EXPECT_EQ(verdict(6.5, ProofAim::kProve), Verdict::kProved);
+  EXPECT_EQ(verdict(6.2, ProofAim::kProve), Verdict::kUndecided);
+  EXPECT_EQ(verdict(6.2, ProofAim::kDecide), Verdict::kRefuted);
+}
+
+// ---- Samples --------------------------------------------------------------------------------------------------------
+
+/// Balls around bodies decide most pairs; they must not say more than distances do.
+TEST(BodySampler, IsClearWhereAllPairsHaveRoom) {
+  std::mt19937_64 random(21);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (const Problem& problem : {crane(), deviating_crane()}) {
+    const PoseSampler sampler(problem);
+    const BodySampler bodies(problem);
+    int clear = 0, near = 0;
+    for (int trial = 0; trial < 1500; ++trial) {
+      const Waypoint here =
+          at({uniform(-8, 8), uniform(-5, 5), uniform(3.5, 10), uniform(-3, 3), uniform(0, 0.5), uniform(-0.5, 0.5)});
+      const RigidPose pose = sampler.rigid_pose(Segment::straight(here, here), 0);
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t n = 0; n < bodies.bodies().pairs.size(); ++n) {
+        const double room = bodies.room(sampler.model(), pose, n);
+        const double gap = bodies.gap(sampler.model(), pose, n);
+        EXPECT_LE(room, gap);
+        if (!problem.tolerances) EXPECT_EQ(room, gap);
+        least = std::min(least, room);
+      }
+      BodySampler::Carried carried;
+      EXPECT_EQ(bodies.is_clear(sampler.model(), pose, carried), least > 0) << trial << ": " << least;
+      ++(least > 0 ? clear : near);
+    }
+    EXPECT_GT(clear, 300);
+    EXPECT_GT(near, 300);
+  }
+}
+
+/// Level, 3.5 m above the container's underside: nothing but the stack below is near, and what has no room there can't
+/// be proved.
+TEST(BodySampler, HasRoomWhereDeviationsLeaveTheClearance) {
+  Problem problem = crane();
+  problem.tolerances.emplace();
+  problem.tolerances->position_m = "0.05";
+  const Prover prover(problem);
+  for (const double height : {6.3499, 6.3501}) {
+    const Waypoint here = at({-1, 0, height, 0, 0, 0});
+    const RigidPose pose = prover.sampler().rigid_pose(Segment::straight(here, here), 0);
+    BodySampler::Carried carried;
+    const bool is_clear = prover.bodies()->is_clear(prover.sampler().model(), pose, carried);
+    EXPECT_EQ(is_clear, height > 6.35);
+    EXPECT_EQ(prover.prove(here, at({1, 0, height, 0, 0, 0})).verdict == Verdict::kProved, is_clear) << height;
   }
 }
 

@@ -16,7 +16,10 @@ namespace taut::checker {
 namespace {
 
 using taut::testing::box_mesh;
+using taut::testing::joined_meshes;
+using taut::testing::one_sided_mesh;
 using taut::testing::sphere_mesh;
+using taut::testing::twice_wound_mesh;
 
 std::shared_ptr<const Surface> surface_of(const TriangleMesh& mesh) {
   return std::make_shared<const Surface>(mesh.vertices, mesh.triangles, mesh.needles);
@@ -200,19 +203,35 @@ TEST(MeshInside, IsWhatASphereAndABoxContain) {
   EXPECT_EQ(side(box, {0, 0, 0}), Side::kInside);
 }
 
-TEST(MeshInside, OfAShellIsBetweenItsTwoSpheres) {
+TEST(MeshInside, IsWhereverSomePartIs) {
   const WorkingPrecision precision(64);
-  TriangleMesh shell = sphere_mesh(2, 3);
-  const TriangleMesh inner = sphere_mesh(1, 3);
-  const auto offset = static_cast<std::uint32_t>(shell.vertices.size());
-  shell.vertices.insert(shell.vertices.end(), inner.vertices.begin(), inner.vertices.end());
-  for (const auto& [a, b, c] : inner.triangles) shell.triangles.push_back({a + offset, b + offset, c + offset});
-  const auto surface = surface_of(shell);
-  ASSERT_TRUE(surface->is_closed());
-  EXPECT_EQ(surface->parts().size(), 2U);
-  EXPECT_EQ(side(surface, {0.1, 0.2, 0.3}), Side::kOutside);
-  EXPECT_EQ(side(surface, {1.5, 0.1, 0}), Side::kInside);
-  EXPECT_EQ(side(surface, {2.5, 0, 0}), Side::kOutside);
+  const auto apart = surface_of(joined_meshes(box_mesh({1, 1, 1}), box_mesh({1, 1, 1}), {1, 0.1, 0.2}));
+  ASSERT_TRUE(apart->is_closed());
+  EXPECT_EQ(side(apart, {0.5, 0.1, 0.1}), Side::kInside);  // of both
+  EXPECT_EQ(side(apart, {-0.5, 0.1, 0.1}), Side::kInside);
+  EXPECT_EQ(side(apart, {1.5, 0.1, 0.1}), Side::kInside);
+  EXPECT_EQ(side(apart, {1.5, -0.95, 0.1}), Side::kOutside);
+  const auto nested = surface_of(joined_meshes(sphere_mesh(2, 3), sphere_mesh(1, 3), {0, 0, 0}));
+  ASSERT_TRUE(nested->is_closed());
+  EXPECT_EQ(nested->parts().size(), 2U);
+  EXPECT_EQ(side(nested, {0.1, 0.2, 0.3}), Side::kInside);
+  EXPECT_EQ(side(nested, {1.5, 0.1, 0}), Side::kInside);
+  EXPECT_EQ(side(nested, {2.5, 0, 0}), Side::kOutside);
+}
+
+TEST(MeshInside, IsWhereAPartWindsTwice) {
+  const WorkingPrecision precision(64);
+  TriangleMesh wheel = twice_wound_mesh();
+  for (int reversed = 0; reversed < 2; ++reversed) {
+    const auto surface = surface_of(wheel);
+    ASSERT_TRUE(surface->is_closed());
+    EXPECT_EQ(side(surface, {0.3, 0.2, 0.1}), Side::kInside);
+    EXPECT_EQ(side(surface, {-0.2, 0.1, -0.7}), Side::kInside);
+    EXPECT_EQ(side(surface, {2.5, 0.1, 0.1}), Side::kOutside);
+    EXPECT_EQ(side(surface, {0.1, 0.1, 1.5}), Side::kOutside);
+    // Which way round each triangle is listed does not matter.
+    for (std::size_t t = 0; t < wheel.triangles.size(); t += 3) std::swap(wheel.triangles[t][0], wheel.triangles[t][1]);
+  }
 }
 
 TEST(Surface, IsClosedIfEachEdgeHasTwoTriangles) {
@@ -224,6 +243,7 @@ TEST(Surface, IsClosedIfEachEdgeHasTwoTriangles) {
   fin.vertices.push_back({3, 3, 3});
   fin.triangles.push_back({fin.triangles[0][0], fin.triangles[0][1], 8});
   EXPECT_FALSE(surface_of(fin)->is_closed());
+  EXPECT_FALSE(surface_of(one_sided_mesh())->is_closed());
 }
 
 TEST(Surface, RefusesWhatIsNoMesh) {

@@ -206,6 +206,8 @@ TEST(Mutation, OfBodiesOnlyTrueStatementsPass) {
   // A direction only says how: whatever it is, what is claimed is proved along it, or not at all.
   expect_accepted_mutants("clearance_of_obstacles", "/segments/0/apart",
                           {{"Another direction will do.", std::regex("/segments/0/apart/.*: (plus .*|becomes 0)")}});
+  expect_accepted_mutants("clearance_of_obstacles", "/directions", {});
+  // Bodies that state something else are proved, too, if that is true; comparing with the case is what refuses them.
   expect_accepted_mutants("clearance_of_obstacles", "/problem/bodies/clearance_m",
                           {{"A smaller clearance.", std::regex("/.*: (becomes 1e-400|changes its sign)")}});
 }

@@ -339,6 +339,19 @@ class Regress(InFolder):
         self.assertEqual(said.returncode, 3)
         self.assertIn("got a part of other work, of which 'cases_sha256' is", said.stderr)
 
+    def test_another_mesh_is_other_work(self):
+        shutil.rmtree(self.cases)
+        os.makedirs(self.cases)
+        for name in ("inside-a-mesh.yaml", "sphere.stl"):
+            shutil.copy(os.path.join(CASES, "bodies", name), self.cases)
+        parts = self.path("parts")
+        self.found("--parts", parts)
+        with open(os.path.join(self.cases, "sphere.stl"), "r+b") as file:
+            file.write(b"other")  # of the header, which means nothing
+        said = run(TAUT, "regress", self.cases, "--parts", parts)
+        self.assertEqual(said.returncode, 3, said.stdout)
+        self.assertIn("got a part of other work, of which 'cases_sha256' is", said.stderr)
+
     def test_the_exit_code_of_all_is_that_of_the_merge(self):
         parts = self.path("parts")
         with open(os.path.join(self.cases, "robot1-slice-qs2-qg.yaml"), encoding="utf-8") as file:

@@ -176,6 +176,11 @@ TEST(CaseCables, MayHaveOneOrSixOfEach) {
 constexpr const char* kDeck = "platform: [{name: deck, box: [1, 1, 1 mm]}]\n";
 constexpr const char* kPost = "obstacles: [{name: post, ball: {radius: 1}}]\n";
 
+TEST(CasePairs, AreAtLeastOneClass) {
+  expect_rejected("{clearance: 1, platform: [{name: f, ball: {radius: 1}}], obstacles: [], pairs: []}",
+                  "bodies.pairs: got an empty list, expected one class of pairs or more");
+}
+
 TEST(CasePairs, AreAllThatThereAreBodiesForUnlessStated) {
   const auto checked = [](const std::string& yaml) {
     std::string classes;
@@ -189,7 +194,7 @@ TEST(CasePairs, AreAllThatThereAreBodiesForUnlessStated) {
   EXPECT_EQ(checked(std::string("clearance: 0.1\n") + kCables), "--x-");
   EXPECT_EQ(checked(std::string("clearance: 0.1\n") + kCables + kPost), "-xx-");
   EXPECT_EQ(checked(all + "pairs: [cables-cables, platform-obstacles]\n"), "x-x-");
-  EXPECT_EQ(checked(all + "pairs: []\n"), "----");
+  expect_rejected(all + "pairs: []\n", "bodies.pairs: got an empty list, expected one class of pairs or more");
   expect_rejected("{clearance: 1}", "got nothing that could touch");
   expect_rejected(all + "pairs: [cables]\n", "bodies.pairs[0]: got 'cables', expected one of platform-obstacles");
   expect_rejected(all + "pairs: [cables-cables, cables-cables]\n", "got 'cables-cables' twice");

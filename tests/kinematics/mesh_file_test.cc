@@ -242,6 +242,10 @@ TEST_F(MeshFiles, OfWhichCgalWouldLoseAPartAreRejected) {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
   EXPECT_EQ(load("tabs.obj", points + "f 1 2\t4 3\n").mesh.triangles.size(), 2U);
   EXPECT_EQ(load("plain.obj", points + "f 1/1/1 2//2 -1 3 # four\r\n").mesh.triangles.size(), 2U);
+  EXPECT_EQ(load("feeds.obj", points + "f 1\v2\f4 3\n").report.split_faces, 1U);
+  expect_rejected("zero.obj", "v 0 0 0\nv 1 0 0\nf 1 2 0\nv 0 1 0\n", "in which line 3 is no face");
+  expect_rejected("large.obj", points + "f 1 2 3 99999999999\n", "in which line 5 is no face");
+  expect_rejected("long.obj", points + "f 1 2/" + std::string(300, '3') + " 3\n", "in which line 5 is no face");
   expect_rejected("word.obj", points + "f 1 2 3 x 4\n", "in which line 5 is no face");
   expect_rejected("joined.obj", points + "f 1 2 3-4 1\n", "in which line 5 is no face");
   expect_rejected("curved.obj", points + "f 1 2 3\nsurf 0 1 0 1 1 2 3 4\n", "a curved surface in line 6");
@@ -256,17 +260,56 @@ TEST_F(MeshFiles, OfWhichCgalWouldLoseAPartAreRejected) {
   other.replace(other.find("facet"), 5, "Facet");
   EXPECT_EQ(load("a.stl", "solid s\n" + facet + "endsolid s\n").mesh.triangles.size(), 1U);
   expect_rejected("b.stl", "solid s\n" + facet + other + "endsolid s\n", "which is no whole stl file");
-  const auto ply = [](const std::string& z, const std::string& more) {
-    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty float y\n" + z +
-           "element face 1\nproperty list uchar int vertex_indices\n" + more + "end_header\n";
+  // CGAL would first take this for a binary file, and keep a point that it has read of it.
+  const LoadedMesh tab = load("tab.stl", "solid\tt facet vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endfacet endsolid\t" +
+                                             std::string(20, 't') + "\n");
+  EXPECT_THAT(tab.mesh.vertices, ElementsAre(ElementsAre(0, 0, 0), ElementsAre(1, 0, 0), ElementsAre(0, 1, 0)));
+  // And this one for text.
+  std::string solid = stl_of_tetrahedron();
+  solid.replace(0, 60, "solid facet vertex 5 5 5 vertex 6 5 5 vertex 5 6 5 endfacet ");
+  EXPECT_THAT(load("solid.stl", solid).report.upper, ElementsAre(0.1F, 0.1F, 0.1F));
+}
+
+TEST_F(MeshFiles, WithEndsOfLinesOfAnyKindAreReadAlike) {
+  const std::string lines = "v 0 0 0\nv 1 0 0\nv 0 1 0\n# f 1 2 3\nv 1 1 0\nf 1 2 3\ng a\nf 4 3 2\n";
+  for (const char* end : {"\r", "\r\n", "\r\n\r"}) {
+    std::string text;
+    for (const char c : lines) text += c == '\n' ? std::string(end) : std::string(1, c);
+    EXPECT_EQ(load("ends.obj", text).mesh.triangles.size(), 2U);
+  }
+  // Behind the single end of a line, CGAL would see neither the point nor the face.
+  EXPECT_EQ(load("mixed.obj", "v 0 0 0\nv 1 0 0\n# a\rv 0 1 0\rv 1 1 0\nf 1 2 3\ng a\rf 4 3 2\n").mesh.triangles.size(),
+            2U);
+}
+
+TEST_F(MeshFiles, WithMoreBehindANumberAreRejected) {
+  const auto stl = [](const std::string& z) {
+    return "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 " + z +
+           "\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n";
   };
-  EXPECT_EQ(load("a.ply", ply("property double z\n", "") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").mesh.triangles.size(), 1U);
-  expect_rejected("z.ply", ply("", "") + "0 0\n1 0\n0 1\n3 0 1 2\n", "no floating-point number 'z'");
-  expect_rejected("int.ply", ply("property int z\n", "") + "0 0 0\n1 0 0\n0 1 5\n3 0 1 2\n", "number 'z'");
-  expect_rejected("strip.ply",
-                  ply("property double z\n", "element tristrips 1\nproperty list int int vertex_indices\n") +
-                      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n",
-                  "elements that are called 'tristrips'");
+  const auto obj = [](const std::string& z) { return "v 0 0 " + z + "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"; };
+  for (const char* z : {"+1.5e0", "1.5", "1.50", "15.E-1"}) {
+    EXPECT_THAT(load("z.stl", stl(z)).report.upper, ElementsAre(1, 1, 1.5)) << z;
+    EXPECT_THAT(load("z.obj", obj(z)).report.upper, ElementsAre(1, 1, 1.5)) << z;
+  }
+  EXPECT_THAT(load("small.stl", stl("1e-400")).report.upper, ElementsAre(1, 1, 0));
+  for (const char* z : {"1,5", "1mm", "1.5f", "0x1", "1-2", "1:"}) {
+    expect_rejected("z.stl", stl(z), std::string("'") + z + "' is no number");
+    expect_rejected("z.obj", obj(z), "in which line 1 is no point");
+  }
+  expect_rejected("large.stl", stl("1e999"), "which is no whole stl file");
+  for (const std::string z : {"1 2", "1 0.5", "1 1 1", "1 1.01", "1 1 0 0 0"}) {
+    expect_rejected("weight.obj", obj(z), "in which line 1 is no point");
+  }
+  for (const std::string z : {"1 1", "1 1.0", "1 0.5 0.5 0.5"}) EXPECT_EQ(load("z.obj", obj(z)).mesh.vertices[0][2], 1);
+}
+
+TEST_F(MeshFiles, OfPlyAreRead) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty float y\n"
+      "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  EXPECT_EQ(load("a.ply", head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").mesh.triangles.size(), 1U);
+  expect_rejected("corner.ply", head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "expected a mesh");
 }
 
 TEST(MeshLimits, AreOnTriangles) {

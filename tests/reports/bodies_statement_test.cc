@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "problem/problem.h"
+#include "reports/summary/scope.h"
+#include "tests/support/meshes.h"
+
 namespace taut {
 namespace {
 
@@ -53,8 +57,9 @@ TEST(BodiesStatement, SaysTheExampleCranesBodiesInPeoplesUnits) {
   EXPECT_THAT(
       lines(bodies_statement(bodies)),
       ElementsAre(
-          "Pairs and their clearances: platform and obstacles, 3 pairs, 200 mm; cables and obstacles, 18 pairs, "
-          "200 mm; cables among each other, 15 pairs, 20 mm; cables and platform, 6 pairs, 10 mm.",
+          "Pairs and their clearances: platform and obstacles, 3 pairs, 200 mm to 300 mm, as "
+          "some have their own; cables and obstacles, 18 pairs, 200 mm to 300 mm, as some have their own; cables among "
+          "each other, 15 pairs, 20 mm; cables and platform, 6 pairs, 10 mm.",
           "Cables: 28 mm thick, not checked on the 500 mm near the base and the 400 mm near the platform.",
           "'container', on the platform: a box of 2.4 × 6.1 × 2.6 m at (0, 0, -2.2) m.",
           "'floor', obstacle: all behind the plane through (0, 0, 0) m, which faces along (0, 0, 1).",
@@ -67,8 +72,8 @@ TEST(BodiesStatement, SaysWhatIsNotChecked) {
   bodies.clearance_m = {"0.2", std::nullopt, std::nullopt, std::nullopt};
   const BodiesStatement statement = bodies_statement(bodies);
   EXPECT_EQ(statement.checked,
-            "Pairs and their clearances: platform and obstacles, 3 pairs, 200 mm. Not checked: cables and obstacles, "
-            "cables among each other, cables and platform.");
+            "Pairs and their clearances: platform and obstacles, 3 pairs, 200 mm to 300 mm, as some have "
+            "their own. Not checked: cables and obstacles, cables among each other, cables and platform.");
   EXPECT_THAT(statement.cables, IsEmpty());
   bodies.clearance_m = {};
   EXPECT_THAT(bodies_statement(bodies).checked,
@@ -134,6 +139,30 @@ TEST(BodiesStatement, NotesClearancesOfPairsPrismsAndMeshes) {
       "'tool': 1 triangle, from (0, 0, 0) to (1, 2, 0) mm in its own axes, not watertight: 3 edges of one "
       "triangle, 0 of more than two: it has no inside, and only its surface is checked; 1 triangle left out: it is "
       "there twice, or is a segment, which stays");
+}
+
+TEST(BodiesStatement, SaysOfWhichMeshesOnlyTheSurfaceIsChecked) {
+  BodiesText bodies = crane_scene();
+  TriangleMesh open = testing::box_mesh({1, 1, 1});
+  bodies.obstacles.push_back({.name = "whole", .shape = testing::mesh_text(open, 'a')});
+  open.triangles.pop_back();
+  bodies.obstacles.push_back({.name = "rock", .shape = testing::mesh_text(open, 'b')});
+  bodies.obstacles.push_back({.name = "plane", .shape = testing::mesh_text(testing::one_sided_mesh(), 'c')});
+  EXPECT_THAT(bodies_without_inside(bodies), ElementsAre("'rock'", "'plane'"));
+  const BodiesStatement statement = bodies_statement(bodies);
+  EXPECT_THAT(statement.bodies[4].second, Not(HasSubstr("no inside")));
+  EXPECT_THAT(statement.bodies[5].second, HasSubstr("; it has no inside: only its surface is checked"));
+  Problem problem;
+  problem.bodies = bodies;
+  EXPECT_THAT(not_covered(problem).front().brief, HasSubstr("what is inside of 'rock', 'plane'"));
+}
+
+TEST(BodiesStatement, SaysTheLeastClearanceOfAClass) {
+  BodiesText bodies = crane_scene();
+  bodies.obstacles[1].clearance_m.reset();
+  EXPECT_THAT(bodies_statement(bodies).checked, HasSubstr("platform and obstacles, 3 pairs, 200 mm; "));
+  bodies.pair_clearances_m = {{{"container", "stack"}, "0"}};
+  EXPECT_THAT(bodies_statement(bodies).checked, HasSubstr("platform and obstacles, 3 pairs, 0 m to 200 mm"));
 }
 
 }  // namespace

@@ -174,7 +174,7 @@ TEST(ReportOfBodies, NamesAContactWithPairPlaceDepthAndPoints) {
   const std::string text = to_text(Summary(scene, {}));
   EXPECT_THAT(text, AllOf(HasSubstr("Bodies too near"), HasSubstr("deep in each other")));
   EXPECT_THAT(Summary(scene, {}).lift_plan,
-              Contains(testing::Field(&LiftPlanItem::open, HasSubstr("proves no clearances"))));
+              Contains(::testing::Field(&LiftPlanItem::open, HasSubstr("proves no clearances"))));
 }
 
 TEST(ReportOfBodies, SaysHowFarAwayTheNearerPointsAreProvedToBe) {

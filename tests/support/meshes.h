@@ -66,6 +66,45 @@ inline TriangleMesh sphere_mesh(double radius, int depth) {
   return mesh;
 }
 
+/// Both in one mesh, the second moved by `by`.
+inline TriangleMesh joined_meshes(TriangleMesh first, const TriangleMesh& second, const std::array<double, 3>& by) {
+  const auto offset = static_cast<std::uint32_t>(first.vertices.size());
+  for (const auto& [x, y, z] : second.vertices) first.vertices.push_back({x + by[0], y + by[1], z + by[2]});
+  for (const auto& [a, b, c] : second.triangles) first.triangles.push_back({a + offset, b + offset, c + offset});
+  return first;
+}
+
+/// One closed part that winds twice about the z axis: a wheel of height 2 around 0 with rims of radius 1 to 2.
+inline TriangleMesh twice_wound_mesh() {
+  constexpr std::uint32_t kCount = 14;
+  constexpr double kTwoTurns = 12.566370614359172;
+  TriangleMesh mesh;
+  for (const double z : {-1.0, 1.0}) {
+    for (std::uint32_t k = 0; k < kCount; ++k) {
+      const double angle = kTwoTurns * k / kCount, radius = k < kCount / 2 ? 2 : 1;
+      mesh.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+    }
+  }
+  mesh.vertices.push_back({0, 0, -1});
+  mesh.vertices.push_back({0, 0, 1});
+  for (std::uint32_t k = 0; k < kCount; ++k) {
+    const std::uint32_t next = (k + 1) % kCount;
+    mesh.triangles.push_back({2 * kCount, next, k});
+    mesh.triangles.push_back({2 * kCount + 1, kCount + k, kCount + next});
+    mesh.triangles.push_back({k, next, kCount + k});
+    mesh.triangles.push_back({next, kCount + next, kCount + k});
+  }
+  return mesh;
+}
+
+/// A closed surface with one side: the projective plane, of six points.
+inline TriangleMesh one_sided_mesh() {
+  return {
+      {{1, 0, 0}, {-1, 0.1, 0}, {0, 1, 0.2}, {0.3, -1, 0}, {0, 0.2, 1}, {0.1, 0, -1}},
+      {{0, 1, 2}, {0, 1, 3}, {0, 2, 4}, {0, 3, 5}, {0, 4, 5}, {1, 2, 5}, {1, 3, 4}, {1, 4, 5}, {2, 3, 4}, {2, 3, 5}},
+      {}};
+}
+
 /// As if it had been read from a file with this digest.
 inline MeshText mesh_text(TriangleMesh mesh, char digest, DecimalText unit_m = "1") {
   return {"mesh.stl", std::string(64, digest), std::move(unit_m), std::make_shared<const IndexedMesh>(std::move(mesh))};

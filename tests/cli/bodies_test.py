@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bodies from case to report and taut-check: what a mesh contains, and what people are told of what is not checked."""
+import copy
+import hashlib
+import html
+import json
+import os
+import re
+import struct
+import sys
+import unittest
+
+from command_line import CASES, CHECK, TAUT, InFolder, run, text_of
+
+CORNERS = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
+FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+
+
+def box(half, at=(0, 0, 0)):
+    """12 triangles."""
+    corners = [tuple(at[k] + half[k] * c[k] for k in range(3)) for c in CORNERS]
+    return [(corners[a], corners[b], corners[c]) for p, q, r, s in FACES for a, b, c in ((p, q, r), (p, r, s))]
+
+
+def stl(triangles, more=b""):
+    pieces = [struct.pack("<12fH", 0, 0, 0, *(x for corner in triangle for x in corner), 0) for triangle in triangles]
+    return bytes(80) + struct.pack("<I", len(triangles)) + b"".join(pieces) + more
+
+
+def stated_first(page):
+    """What the first page says the verdict is about."""
+    stated = re.search(r'<dl class="scope">.*?</dl>', page, re.S).group(0)
+    return html.unescape(re.sub(r"<[^>]*>", "", stated)).replace("\u00a0", " ")
+
+
+class MeshFolder(InFolder):
+    """The slit's tool in the middle of a rock, of which the nearest surface is far away."""
+
+    def audit(self, rock, out="out", edit=lambda text: text, code=None):
+        case = text_of(os.path.join(CASES, "bodies", "slit-wider.yaml"))
+        case = re.sub(r"  obstacles:\n(    - .*\n)+", "  obstacles: [{name: rock, mesh: rock.stl, unit: m}]\n", case)
+        case = self.write("case.yaml", edit(case))
+        with open(self.path("rock.stl"), "wb") as file:
+            file.write(rock)
+        said = run(TAUT, "audit", case, os.path.join(CASES, "bodies", "slit.csv"), "--out", self.path(out))
+        if code is not None:
+            self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+        return said
+
+
+class Meshes(MeshFolder):
+    def test_a_closed_mesh_is_solid_wherever_a_part_of_it_is(self):
+        rocks = {"box": box((9, 9, 9)),
+                 "overlapping boxes": box((9, 9, 9)) + box((9, 9, 9), (1, 1, 1)),
+                 "a box in a box": box((9, 9, 9)) + box((12, 12, 12)),
+                 "a box in a box, turned inside out":
+                     box((12, 12, 12)) + [(a, c, b) for a, b, c in box((9, 9, 9))]}
+        for name, rock in rocks.items():
+            with self.subTest(rock=name):
+                said = self.audit(stl(rock), code=1)
+                self.assertIn("rock", said.stdout)
+                checked = run(CHECK, self.path("out", "certificate.json"))
+                self.assertEqual(checked.returncode, 0, checked.stdout)
+
+    def test_of_an_open_mesh_everybody_says_that_only_the_surface_is_checked(self):
+        for name, rock in {"a hole": box((9, 9, 9))[:-1],
+                           "a stray triangle": box((9, 9, 9)) + [((40, 0, 0), (41, 0, 0), (40, 1, 0))]}.items():
+            with self.subTest(rock=name):
+                self.assertIn("only its surface is checked", self.audit(stl(rock), code=0).stdout)
+                certificate = self.path("out", "certificate.json")
+                checked = run(CHECK, certificate)
+                self.assertIn("only the surface of rock.stl was checked, a mesh without an inside", checked.stdout)
+                text = run(TAUT, "report", certificate, "--text").stdout
+                self.assertIn("it has no inside: only its surface is checked", text)
+                page = text_of(self.path("out", "report.html"))
+                self.assertTrue("Only the surface is checked, not what is inside, of 'rock'" in stated_first(page))
+                self.assertTrue("what is inside of 'rock', whose surface is not closed" in html.unescape(page))
+
+    def test_another_mesh_is_refused(self):
+        self.audit(stl(box((9, 9, 9), (0, 0, 40))), code=0)
+        certificate = self.path("out", "certificate.json")
+        self.assertEqual(run(CHECK, certificate).returncode, 0)
+        with open(self.path("out", "rock.stl"), "wb") as file:
+            file.write(stl(box((9, 9, 8), (0, 0, 40))))
+        self.assertNotEqual(run(CHECK, certificate).returncode, 0)
+
+    def test_a_file_that_holds_more_than_it_says_is_refused(self):
+        rock = box((9, 9, 9), (0, 0, 40))
+        for file in (stl(rock)[:-1], stl(rock, b"\0"), stl(rock, stl(rock)[84:134])):
+            said = self.audit(file, code=3)
+            self.assertIn("case.yaml:", said.stderr)
+            self.assertIn("no whole", said.stderr)
+            self.assertFalse(os.path.exists(self.path("out")))
+
+
+def sealed(certificate):
+    """With the digest of what it says."""
+    certificate = copy.deepcopy(certificate)
+    footer = certificate.pop("footer")
+    body = json.dumps(certificate, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    footer["sha256"] = hashlib.sha256(body.encode()).hexdigest()
+    return json.dumps({**certificate, "footer": footer}, sort_keys=True)
+
+
+def altered(value):
+    """Other values in place of one."""
+    if isinstance(value, str):
+        yield from ("1e-9", "7") if re.fullmatch(r"[-+.e\d]+", value) else (value + "x", "")
+    elif isinstance(value, list):
+        yield value[:-1]
+        yield value + value[-1:]
+        for k, part in enumerate(value):
+            yield from (value[:k] + [other] + value[k + 1:] for other in altered(part))
+    elif isinstance(value, dict):
+        for key, part in value.items():
+            yield {k: v for k, v in value.items() if k != key}
+            yield from ({**value, key: other} for other in altered(part))
+
+
+class Altered(MeshFolder):
+    """Whatever bodies a certificate states in place of the case's, taut-check refuses it with the case: even where what
+    it says of them is true."""
+
+    def expect_refused(self, least):
+        certificate = json.loads(text_of(self.path("out", "certificate.json")))
+        altered_file, case = self.path("out", "altered.json"), self.path("case.yaml")
+
+        def check(bodies):
+            certificate["problem"]["bodies"] = bodies
+            with open(altered_file, "w") as file:
+                file.write(sealed(certificate))
+            return run(CHECK, altered_file, case)
+
+        stated = certificate["problem"]["bodies"]
+        said = check(stated)
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        count = 0
+        for bodies in altered(stated):
+            if bodies == stated:
+                continue
+            self.assertNotEqual(check(bodies).returncode, 0, bodies)
+            count += 1
+        self.assertGreater(count, least)
+
+    def test_bodies_are_the_cases(self):
+        case = self.write("case.yaml", text_of(os.path.join(CASES, "bodies", "slit-wider.yaml")))
+        said = run(TAUT, "audit", case, os.path.join(CASES, "bodies", "slit.csv"), "--out", self.path("out"))
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.expect_refused(100)
+
+    def test_meshes_are_the_cases(self):
+        self.audit(stl(box((9, 9, 9), (0, 0, 40))), code=0)
+        self.expect_refused(40)
+
+
+class Clearances(InFolder):
+    def audit(self, edit):
+        case = edit(text_of(os.path.join(CASES, "bodies", "slit-wider.yaml")))
+        return run(TAUT, "audit", self.write("case.yaml", case), os.path.join(CASES, "bodies", "slit.csv"), "--out",
+                   self.path("out"))
+
+    def test_the_first_page_names_the_least_one_of_a_class(self):
+        said = self.audit(lambda text: text.replace("  platform:", "  pair_clearances: [{pair: [tool, left wall], "
+                                                                   "clearance: 0}]\n  platform:"))
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertIn("2 pairs, 0 m to 0.1 mm, as some have their own",
+                      stated_first(text_of(self.path("out", "report.html"))))
+
+    def test_some_class_of_pairs_is_checked(self):
+        said = self.audit(lambda text: text.replace("  platform:", "  pairs: []\n  platform:"))
+        self.assertEqual(said.returncode, 3)
+        self.assertIn("bodies.pairs: got an empty list, expected one class of pairs or more", said.stderr)
+        self.assertFalse(os.path.exists(self.path("out")))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])
