@@ -27,7 +27,7 @@ const ProofModel<MpInterval>& PrecisionLadder::multiprecision(std::size_t rung) 
   Rung& fine = fine_.at(rung - 1);
   std::call_once(fine.made, [&] {
     const PrecisionScope precision(bits(rung));
-    fine.model.emplace(make_mp_proof_model(problem_));
+    fine.model = std::make_unique<const ProofModel<MpInterval>>(make_mp_proof_model(problem_));
   });
   return *fine.model;
 }

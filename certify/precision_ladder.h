@@ -4,8 +4,8 @@
 // Rung 0 of the ladder is binary64; rung k > 0 is MPFR with bits(k) bits: 128, 256, 512, … up to a given maximum.
 #pragma once
 
+#include <memory>
 #include <mutex>
-#include <optional>
 #include <vector>
 
 #include "certify/box_proof.h"
@@ -42,7 +42,7 @@ class PrecisionLadder {
  private:
   struct Rung {
     std::once_flag made;
-    std::optional<ProofModel<MpInterval>> model;
+    std::unique_ptr<const ProofModel<MpInterval>> model;  // 30 kB each, which few problems ever need
   };
 
   Problem problem_;

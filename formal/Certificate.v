@@ -1,3 +1,4 @@
+(* SPDX-License-Identifier: GPL-3.0-or-later *)
 (** * The certificate: a statement, and the numbers by which it is proved *)
 
 From Coq Require Import QArith List.

@@ -1,3 +1,4 @@
+(* SPDX-License-Identifier: GPL-3.0-or-later *)
 (** * Lemmas over the real numbers, on which a proof of soundness can rest *)
 
 From Coq Require Import Reals List Lra Psatz.
@@ -67,7 +68,8 @@ Definition positive (l : list (R * R * R)) : Prop := List.Forall (fun a => 0 < s
 Lemma cauchy_schwarz l : positive l ->
   0 <= spread l /\ 0 <= form l /\ linear l * linear l <= spread l * form l.
 Proof.
-  induction 1 as [| [[c e] z] l p _ [a [b h]]]; cbn [fst snd] in *; unfold linear, spread, form, total in *; cbn [fold_right] in *; [lra|].
+  induction 1 as [| [[c e] z] l p _ [a [b h]]]; cbn [fst snd] in *; unfold linear, spread, form, total in *;
+    cbn [fold_right] in *; [lra|].
   set (S := fold_right (fun a s => (let '(c, _, z) := a in c * z) + s) 0 l) in *.
   set (A := fold_right (fun a s => (let '(c, e, _) := a in c * c / e) + s) 0 l) in *.
   set (B := fold_right (fun a s => (let '(_, e, z) := a in e * (z * z)) + s) 0 l) in *.

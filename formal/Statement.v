@@ -1,3 +1,4 @@
+(* SPDX-License-Identifier: GPL-3.0-or-later *)
 (** * What it means that a path of a cable-driven hexapod is wrench-feasible
 
     This file is the whole statement: definitions over the real numbers, and no word of how they are proved.

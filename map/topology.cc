@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "certify/arithmetic/mp_interval.h"
 #include "map/disjoint_sets.h"
@@ -147,30 +148,39 @@ class Neighbourhood {
     }
   }
 
-  /// Those that share a pose where (φ, θ) flip, on θ = 0 and on θ = π.
-  void add_flipped(const MapBox& box) {
+  /// Those that share a pose of θ = 0, where (φ, θ) flip: φ is anything there.
+  void add_at_zero(const MapBox& box) {
     const MapSpace::Flip& flip = *map_.space.flip;
-    if (box.lower[flip.theta] <= 0) {
-      MapBox pole = box;
-      pole.lower[flip.phi] = 0;
-      pole.upper[flip.phi] = 1;
-      pole.lower[flip.theta] = pole.upper[flip.theta] = 0;
-      add_around(pole);
-    }
+    if (box.lower[flip.theta] > 0) return;
+    MapBox pole = box;
+    pole.lower[flip.phi] = 0;
+    pole.upper[flip.phi] = 1;
+    pole.lower[flip.theta] = pole.upper[flip.theta] = 0;
+    add_around(pole);
+  }
+
+  /// Those that share a pose of θ = π where σ is fixed: half a turn of φ away.
+  void add_opposite(const MapBox& box) {
+    const MapSpace::Flip& flip = *map_.space.flip;
     if (box.upper[flip.theta] < 1) return;
     MapBox pole = box;
     pole.lower[flip.theta] = pole.upper[flip.theta] = 1;
-    if (!flip.sigma) {
-      pole.lower[flip.phi] += 0.5;
-      pole.upper[flip.phi] += 0.5;
-      for (const double turn : {0.0, 1.0}) {
-        MapBox part = pole;
-        part.lower[flip.phi] = std::max(0.0, pole.lower[flip.phi] - turn);
-        part.upper[flip.phi] = std::min(1.0, pole.upper[flip.phi] - turn);
-        if (part.lower[flip.phi] <= part.upper[flip.phi]) add_around(part);
-      }
-      return;
+    pole.lower[flip.phi] += 0.5;
+    pole.upper[flip.phi] += 0.5;
+    for (const double turn : {0.0, 1.0}) {
+      MapBox part = pole;
+      part.lower[flip.phi] = std::max(0.0, pole.lower[flip.phi] - turn);
+      part.upper[flip.phi] = std::min(1.0, pole.upper[flip.phi] - turn);
+      if (part.lower[flip.phi] <= part.upper[flip.phi]) add_around(part);
     }
+  }
+
+  /// Those that share a pose of θ = π where σ is free: they share σ − 2φ.
+  void add_of_twist(const MapBox& box) {
+    const MapSpace::Flip& flip = *map_.space.flip;
+    if (box.upper[flip.theta] < 1) return;
+    MapBox pole = box;
+    pole.lower[flip.theta] = pole.upper[flip.theta] = 1;
     const Interval2 sought = twist(pole, flip);
     pole.lower[flip.phi] = pole.lower[*flip.sigma] = 0;
     pole.upper[flip.phi] = pole.upper[*flip.sigma] = 1;
@@ -208,6 +218,153 @@ class Neighbourhood {
   std::vector<std::uint32_t>& found_;
 };
 
+/// Joins leaves that share a point of the coordinates, where the ends of a turn are one. It goes down the tree in pairs
+/// of nodes that touch, so that leaves need not be sought from the root each by itself.
+template <class Join>
+class Contacts {
+ public:
+  /// Calls join(a, b) for each two leaves, neither of which is outside. Refers to its arguments.
+  Contacts(const CellMap& map, const Join& join) : map_(map), join_(join), is_possible_(map.nodes.size()) {
+    for (std::size_t node = map.nodes.size(); node-- > 0;) {  // a node's halves come after it
+      const MapNode& here = map.nodes[node];
+      is_possible_[node] = here.axis == MapNode::kLeaf ? !is_outside(here.kind)
+                                                       : is_possible_[here.child] || is_possible_[here.child + 1];
+    }
+  }
+
+  void run() const {
+    const Place whole{0, 0, MapBox()};
+    join_within(whole);
+    join_across_turns(whole, whole, 0, false);
+  }
+
+ private:
+  struct Place {
+    std::uint32_t node;
+    int halvings;
+    MapBox box;
+  };
+
+  [[nodiscard]] bool is_leaf(const Place& place) const { return map_.nodes[place.node].axis == MapNode::kLeaf; }
+
+  /// The halves of a node that is no leaf.
+  [[nodiscard]] std::array<Place, 2> halves(const Place& place) const {
+    const MapNode& here = map_.nodes[place.node];
+    const double mid = 0.5 * (place.box.lower[here.axis] + place.box.upper[here.axis]);  // exact
+    std::array<Place, 2> result = {place, place};
+    for (unsigned side = 0; side < 2; ++side) {
+      result[side].node = here.child + side;
+      ++result[side].halvings;
+      (side == 0 ? result[side].box.upper : result[side].box.lower)[here.axis] = mid;
+    }
+    return result;
+  }
+
+  void join_within(const Place& place) const {
+    if (!is_possible_[place.node] || is_leaf(place)) return;
+    const auto [lower, upper] = halves(place);
+    join_within(lower);
+    join_within(upper);
+    join_between(lower, upper);
+  }
+
+  /// @pre the boxes meet
+  void join_between(const Place& a, const Place& b) const {
+    if (!is_possible_[a.node] || !is_possible_[b.node]) return;
+    if (is_leaf(a) && is_leaf(b)) return join_(a.node, b.node);
+    if (is_leaf(a) || (!is_leaf(b) && b.halvings < a.halvings)) return join_between(b, a);
+    const std::size_t axis = map_.nodes[a.node].axis;
+    const auto [lower, upper] = halves(a);
+    if (b.box.lower[axis] <= lower.box.upper[axis]) join_between(lower, b);
+    if (upper.box.lower[axis] <= b.box.upper[axis]) join_between(upper, b);
+  }
+
+  /// Joins what meets `whole`, moved by a turn to either side or by none, along this axis and those after it.
+  void join_across_turns(const Place& whole, const Place& moved, std::size_t axis, bool is_moved) const {
+    if (axis == map_.space.size()) {
+      if (is_moved) join_between(whole, moved);
+      return;
+    }
+    join_across_turns(whole, moved, axis + 1, is_moved);
+    if (axis >= kMaxMapAxes || map_.space.axes[axis].kind != MapAxis::Kind::kTurn) return;  // for the compiler
+    for (const double turn : {1.0, -1.0}) {
+      if (turn < 0 && !is_moved) continue;  // the same pairs, the other way round
+      Place next = moved;
+      next.box.lower[axis] += turn;
+      next.box.upper[axis] += turn;
+      join_across_turns(whole, next, axis + 1, true);
+    }
+  }
+
+  const CellMap& map_;
+  const Join& join_;
+  std::vector<bool> is_possible_;  ///< by node: whether a leaf of it is not outside
+};
+
+/// Leaves at a pole, each with what tells its poses there: σ − 2φ on θ = π, and on θ = 0 the coordinate besides φ and
+/// θ. There are so many that to look at each pair would take most of the time of a map of three coordinates.
+class Pole {
+ public:
+  explicit Pole(bool is_circle) : is_circle_(is_circle) {}
+
+  void add(std::uint32_t node, Interval2 at) {
+    if (!is_circle_) {
+      leaves_.push_back({node, at});
+      return;
+    }
+    const double turns = std::floor(at[0]);
+    at = at[1] - at[0] < 1 ? Interval2{at[0] - turns, at[1] - turns} : Interval2{0, 1};  // exact for dyadic ends
+    leaves_.push_back({node, at});
+    if (at[1] >= 1) leaves_.push_back({node, {at[0] - 1, at[1] - 1}});
+  }
+
+  /// Joins all that share a pose. In the order in which intervals begin, one that begins no later than some earlier one
+  /// ends shares its begin with that one.
+  void join(DisjointSets& sets) {
+    std::ranges::sort(leaves_, {}, [](const Leaf& leaf) { return leaf.at[0]; });
+    std::uint32_t last = 0;
+    double end = -std::numeric_limits<double>::infinity();
+    for (const Leaf& leaf : leaves_) {
+      if (leaf.at[0] <= end) sets.join(last, leaf.node);
+      last = leaf.node;
+      end = std::max(end, leaf.at[1]);
+    }
+  }
+
+ private:
+  struct Leaf {
+    std::uint32_t node;
+    Interval2 at;
+  };
+  bool is_circle_;
+  std::vector<Leaf> leaves_;
+};
+
+/// Both poles of a space where (φ, θ) flip.
+class Poles {
+ public:
+  explicit Poles(const MapSpace& space)
+      : flip_(*space.flip),
+        other_(kMaxMapAxes - flip_.phi - flip_.theta),
+        zero_(space.size() == kMaxMapAxes && space.axes[other_].kind == MapAxis::Kind::kTurn),
+        pi_(true) {}
+
+  void add(std::uint32_t node, const MapBox& box) {
+    if (box.lower[flip_.theta] <= 0) zero_.add(node, {box.lower[other_], box.upper[other_]});
+    if (flip_.sigma && box.upper[flip_.theta] >= 1) pi_.add(node, twist(box, flip_));
+  }
+  void join(DisjointSets& sets) {
+    zero_.join(sets);
+    pi_.join(sets);
+  }
+
+ private:
+  static_assert(kMaxMapAxes == 3, "besides phi and theta there is one coordinate, of number 3 - phi - theta");
+  MapSpace::Flip flip_;
+  std::size_t other_;  ///< in a space of two coordinates one that all boxes have all of
+  Pole zero_, pi_;
+};
+
 /// Numbers the components of the leaves that `is_member` names, the largest first.
 template <class IsMember>
 std::vector<MapComponent> number(const CellMap& map, DisjointSets& sets, const IsMember& is_member,
@@ -237,20 +394,40 @@ std::vector<MapComponent> number(const CellMap& map, DisjointSets& sets, const I
   return result;
 }
 
+/// Joins leaves that share a pose where (φ, θ) flip.
+template <class Join>
+void join_at_poles(const CellMap& map, DisjointSets& inside, DisjointSets& possible, const Join& join) {
+  Poles inside_poles(map.space), possible_poles(map.space);
+  std::vector<std::uint32_t> found;
+  Neighbourhood around(map, found);
+  map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
+    const CellKind kind = map.nodes[node].kind;
+    if (is_outside(kind)) return;
+    const MapBox box = box_of(cell);
+    possible_poles.add(node, box);
+    if (kind == CellKind::kInside) inside_poles.add(node, box);
+    if (map.space.flip->sigma) return;
+    found.clear();
+    around.add_opposite(box);
+    for (const std::uint32_t other : found) {
+      if (!is_outside(map.nodes[other].kind)) join(node, other);
+    }
+  });
+  inside_poles.join(inside);
+  possible_poles.join(possible);
+}
+
 }  // namespace
 
 MapTopology::MapTopology(const CellMap& map) : map_(map) {
   DisjointSets inside(map.nodes.size()), possible(map.nodes.size());
-  map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
-    const CellKind kind = map.nodes[node].kind;
-    if (is_outside(kind)) return;
-    for (const std::uint32_t other : neighbours(cell)) {
-      const CellKind other_kind = map.nodes[other].kind;
-      if (is_outside(other_kind)) continue;
-      possible.join(node, other);
-      if (kind == CellKind::kInside && other_kind == CellKind::kInside) inside.join(node, other);
-    }
-  });
+  const auto is_inside = [&](std::uint32_t node) { return map.nodes[node].kind == CellKind::kInside; };
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    possible.join(a, b);
+    if (is_inside(a) && is_inside(b)) inside.join(a, b);
+  };
+  Contacts(map, join).run();
+  if (map.space.flip) join_at_poles(map, inside, possible, join);
   inside_ = number(
       map, inside, [](CellKind kind) { return kind == CellKind::kInside; }, inside_of_);
   possible_ = number(
@@ -262,7 +439,10 @@ std::vector<std::uint32_t> neighbours(const CellMap& map, const Cell& cell) {
   Neighbourhood around(map, found);
   const MapBox box = box_of(cell);
   around.add_around(box);
-  if (map.space.flip) around.add_flipped(box);
+  if (map.space.flip) {
+    around.add_at_zero(box);
+    map.space.flip->sigma ? around.add_of_twist(box) : around.add_opposite(box);
+  }
   return found;
 }
 

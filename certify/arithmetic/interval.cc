@@ -5,6 +5,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "base/input_error.h"
@@ -230,8 +233,51 @@ Interval pow_int(Interval x, int n) {
   return x * pow_int(x, n - 1);
 }
 
+namespace {
+
+/// A decimal as a quotient of two integers that are exact in binary64, the second one positive. None for
+/// a text with more than digits, a sign and a point, or with too many digits.
+struct PlainDecimal {
+  double numerator;
+  double denominator;
+};
+std::optional<PlainDecimal> plain_decimal(std::string_view text) {
+  constexpr std::size_t kMostDigits = 15;  // 10^15 < 2^53
+  const bool negative = text.starts_with('-');
+  if (negative) text.remove_prefix(1);
+  std::int64_t digits = 0;
+  std::int64_t power = 1;
+  std::size_t count = 0;
+  bool after_point = false;
+  for (const char c : text) {
+    if (c == '.' && !after_point) {
+      after_point = true;
+      continue;
+    }
+    if (c < '0' || c > '9' || ++count > kMostDigits) return std::nullopt;
+    digits = 10 * digits + (c - '0');
+    if (after_point) power *= 10;
+  }
+  if (count == 0) return std::nullopt;
+  return PlainDecimal{static_cast<double>(negative ? -digits : digits), static_cast<double>(power)};
+}
+
+/// The quotient rounded downward and upward, whatever the caller's rounding.
+Interval quotient(const PlainDecimal& x) {
+  alignas(16) double ends[2] = {0, 0};  // −lower, upper
+  const auto divide = [&] {
+    _mm_store_pd(ends, _mm_div_pd(_mm_set_pd(x.numerator, -x.numerator), _mm_set1_pd(x.denominator)));
+  };
+  const rounding_detail::UpwardGuard guard;
+  rounding_detail::call_opaque(&divide);
+  return {-ends[0], ends[1]};
+}
+
+}  // namespace
+
 Interval ScalarTraits<Interval>::from_decimal(const std::string& text) {
   if (text == "0") return {0.0};  // most entries of most problems
+  if (const auto plain = plain_decimal(text)) return quotient(*plain);
   const rounding_detail::NearestGuard nearest;
   mpfr_t value;
   mpfr_init2(value, 53);

@@ -403,7 +403,9 @@ TEST(BodySampler, IsClearWhereAllPairsHaveRoom) {
         const double room = bodies.room(sampler.model(), pose, n);
         const double gap = bodies.gap(sampler.model(), pose, n);
         EXPECT_LE(room, gap);
-        if (!problem.tolerances) EXPECT_EQ(room, gap);
+        if (!problem.tolerances) {
+          EXPECT_EQ(room, gap);
+        }
         least = std::min(least, room);
       }
       BodySampler::Carried carried;

@@ -3,6 +3,13 @@
 #include "certify/arithmetic/interval.h"
 
 #include <gtest/gtest.h>
+#include <mpfr.h>
+
+#include <cfenv>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "base/input_error.h"
 #include "tests/support/enclosing.h"
@@ -39,6 +46,58 @@ TEST(Interval, RoundsBothEndsOutward) {
 TEST(Interval, RefusesDecimalsBeyondItsRange) {
   EXPECT_THROW((void)ScalarTraits<Interval>::from_decimal("1e400"), InputError);
   EXPECT_THROW((void)ScalarTraits<Interval>::from_decimal("-1.8e308"), InputError);
+}
+
+/// What MPFR makes of a decimal, rounded to binary64.
+double by_mpfr(const std::string& text, mpfr_rnd_t direction) {
+  mpfr_t value;
+  mpfr_init2(value, 53);
+  EXPECT_EQ(mpfr_set_str(value, text.c_str(), 10, direction), 0) << text;
+  const double result = mpfr_get_d(value, direction);
+  mpfr_clear(value);
+  return result;
+}
+
+TEST(Interval, DecimalsAreTheNextNumbersBelowAndAboveInEveryRoundingMode) {
+  std::mt19937_64 random(20);
+  std::vector<std::string> texts = {"0",
+                                    "-0",
+                                    "0.0",
+                                    "-0.000",
+                                    "1",
+                                    "-1",
+                                    "5.",
+                                    ".5",
+                                    "-.5",
+                                    "0.1",
+                                    "9007199254740993",
+                                    "999999999999999",
+                                    "0.00000000000001",
+                                    "0.000000000000000000001",
+                                    "1e3",
+                                    "-2.5e-7"};
+  for (int k = 0; k < 4000; ++k) {
+    std::string text = std::to_string(random() >> (random() % 64));
+    if (text.size() > 17) text.resize(17);
+    if (random() % 8 != 0) text.insert(random() % (text.size() + 1), ".");
+    texts.push_back(random() % 2 == 0 ? "-" + text : text);
+  }
+  for (const std::string& text : texts) {
+    const double lower = by_mpfr(text, MPFR_RNDD);
+    const double upper = by_mpfr(text, MPFR_RNDU);
+    for (const int mode : {FE_TONEAREST, FE_DOWNWARD, FE_TOWARDZERO, FE_UPWARD}) {
+      std::fesetround(mode);
+      const Interval x = ScalarTraits<Interval>::from_decimal(text);
+      const int mode_after = std::fegetround();
+      std::fesetround(FE_TONEAREST);
+      EXPECT_EQ(mode_after, mode);
+      EXPECT_EQ(x.lower(), lower) << text;
+      EXPECT_EQ(x.upper(), upper) << text;
+    }
+  }
+  for (const std::string text : {"", "-", ".", "1.2.3", "1a", "--1", "1-"}) {
+    EXPECT_THROW((void)ScalarTraits<Interval>::from_decimal(text), std::invalid_argument) << text;
+  }
 }
 
 TEST(Interval, ComparisonsNameTheirQuantifier) {

@@ -173,5 +173,45 @@ class Clearances(InFolder):
         self.assertFalse(os.path.exists(self.path("out")))
 
 
+class Planning(InFolder):
+    """Around the post of robot2-sphere-post, in spaces of other kinds, and along a spline."""
+
+    POST = text_of(os.path.join(CASES, "bodies", "robot2-sphere-post.yaml"))
+    BODIES = re.search(r"^bodies:\n(?:  .*\n)+", POST, re.M).group(0)
+    OBSTACLES = re.compile(r"^  obstacles:\n(?:    - .*\n)+  pair_clearances:\n(?:    - .*\n)+", re.M)
+
+    def plan(self, text, out):
+        """Plans a case and has its certificate checked."""
+        said = run(TAUT, "plan", self.write(f"{out}.yaml", text), "--out", self.path(out))
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        checked = run(CHECK, self.path(out, "certificate.json"))
+        self.assertEqual(checked.returncode, 0, checked.stdout)
+        return said.stdout
+
+    def require_a_way_around(self, free, around):
+        """The path that is planned without the obstacles is refuted with them; the one planned with them is proved."""
+        self.plan(free, "free")
+        audited = run(TAUT, "audit", self.write("audited.yaml", around), self.path("free", "path.csv"), "--out",
+                      self.path("audited"))
+        self.assertEqual(audited.returncode, 1, audited.stdout + audited.stderr)
+        self.assertIn("'pin' and 'post'", audited.stdout)
+        self.assertIn("platform and obstacles, 4 pairs", self.plan(around, "around"))
+
+    def with_bodies(self, case):
+        text = text_of(os.path.join(CASES, case))
+        return text, text.replace("\nspace:", f"\n{self.BODIES}space:", 1)
+
+    def test_on_a_constraint(self):
+        self.require_a_way_around(*self.with_bodies("robot2-implicit-sphere-q1-q2-q3.yaml"))
+
+    def test_on_a_surface_of_three_parameters(self):
+        self.require_a_way_around(*self.with_bodies("robot2-sphere-sigma-free-q2-q3.yaml"))
+
+    def test_along_a_spline(self):
+        around = self.POST.replace("epsilon: 0.15}", "epsilon: 0.15, smooth: spline}")
+        self.require_a_way_around(self.OBSTACLES.sub("", around), around)
+        self.assertTrue(text_of(self.path("around", "path.csv")).startswith("control_point,"))
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[4:])

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "kinematics/geometry.h"
+#include "map/disjoint_sets.h"
 #include "tests/map/problems.h"
 #include "tests/map/random_map.h"
 
@@ -32,6 +33,31 @@ MapSpace walled() {
   space.axes[1] = {"theta", MapAxis::Kind::kRange, "0.1", "1.2"};
   space.flip.reset();
   return space;
+}
+
+/// φ, θ and a third coordinate of some kind, which is not σ; `order` says which axis is which.
+MapSpace with_third(MapAxis::Kind kind, const std::array<std::size_t, 3>& order) {
+  const MapSpace slice = space_of(true, false);
+  MapSpace space;
+  space.axes.resize(3);
+  space.axes[order[0]] = slice.axes[slice.flip->phi];
+  space.axes[order[1]] = slice.axes[slice.flip->theta];
+  space.axes[order[2]] = {"x", kind, "0", "1"};
+  space.flip = MapSpace::Flip{order[0], order[1], std::nullopt};
+  return space;
+}
+
+/// Spaces with each kind of neighbours at the poles.
+std::vector<MapSpace> all_spaces() {
+  MapSpace sigma_first = with_third(MapAxis::Kind::kTurn, {2, 1, 0});
+  sigma_first.flip->sigma = 0;
+  return {space_of(true, false),
+          space_of(false, false),
+          walled(),
+          space_of(true, true),
+          sigma_first,
+          with_third(MapAxis::Kind::kRange, {0, 1, 2}),
+          with_third(MapAxis::Kind::kTurn, {1, 2, 0})};
 }
 
 using Point = std::array<int, 3>;  // in units of 2^-kDepth
@@ -87,7 +113,7 @@ TEST(MapTopology, NamesOfPosesAreThoseOfRotations) {
 
 TEST(MapTopology, FindsExactlyTheCellsThatShareAPose) {
   Random random(5);
-  for (const MapSpace& space : {space_of(true, false), space_of(false, false), walled(), space_of(true, true)}) {
+  for (const MapSpace& space : all_spaces()) {
     for (int trial = 0; trial < 20; ++trial) {
       const CellMap map = random_map(random, space, 0.4, 0.3);
       std::map<Point, std::set<std::uint32_t>> at;
@@ -133,6 +159,40 @@ TEST(MapTopology, NumbersComponentsByTheirSize) {
     for (std::size_t k = 1; k < possible.size(); ++k) {
       EXPECT_GE(topology.possible()[k - 1].volume, topology.possible()[k].volume);
     }
+  }
+}
+
+// Poles are joined in the order of the poses there, not by pairs: the components must be those of the pairs.
+TEST(MapTopology, ComponentsAreThoseOfAllPairsOfNeighbours) {
+  Random random(8);
+  for (const MapSpace& space : all_spaces()) {
+    std::size_t several = 0;
+    for (int trial = 0; trial < 600; ++trial) {
+      const CellMap map = random_map(random, space, 0.15, 0.7);
+      DisjointSets inside(map.nodes.size()), possible(map.nodes.size());
+      std::vector<std::uint32_t> leaves;
+      map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
+        const CellKind kind = map.nodes[node].kind;
+        if (is_outside(kind)) return;
+        leaves.push_back(node);
+        for (const std::uint32_t other : neighbours(map, cell)) {
+          if (is_outside(map.nodes[other].kind)) continue;
+          possible.join(node, other);
+          if (kind == CellKind::kInside && map.nodes[other].kind == CellKind::kInside) inside.join(node, other);
+        }
+      });
+      const MapTopology topology(map);
+      several += topology.possible().size() > 2 ? 1 : 0;
+      for (const std::uint32_t a : leaves) {
+        for (const std::uint32_t b : leaves) {
+          EXPECT_EQ(topology.possible_component(a) == topology.possible_component(b),
+                    possible.find(a) == possible.find(b));
+          if (map.nodes[a].kind != CellKind::kInside || map.nodes[b].kind != CellKind::kInside) continue;
+          EXPECT_EQ(topology.inside_component(a) == topology.inside_component(b), inside.find(a) == inside.find(b));
+        }
+      }
+    }
+    EXPECT_GT(several, 10U);
   }
 }
 

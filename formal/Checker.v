@@ -1,0 +1,238 @@
+(* SPDX-License-Identifier: GPL-3.0-or-later *)
+(** * What is computed of a certificate, by the Interval library's operations
+
+    [Soundness.v] proves that what is accepted here is true. *)
+
+From Coq Require Import QArith ZArith List Bool.
+From Flocq Require Import Zaux.
+From Interval Require Import Float.Specific_sig Interval.Interval Interval.Float_full Real.Xreal.
+From Interval Require Import Float.Basic Float.Sig.
+From Taut Require Import Statement Certificate.
+Import ListNotations.
+
+Module Checker (F : FloatOps with Definition radix := radix2 with Definition sensible_format := true).
+
+Module I := FloatIntervalFull F.
+Notation interval := I.type.
+
+Section Precision.
+
+Variable prec : F.precision.
+Definition add := I.add prec.
+Definition sub := I.sub prec.
+Definition mul := I.mul prec.
+Definition div := I.div prec.
+Definition integer := I.fromZ prec.
+Definition zero := integer 0.
+Definition one := integer 1.
+Definition fraction (q : Q) : interval := div (integer (Qnum q)) (integer (Zpos (Qden q))).
+
+(** Strict tests; an empty interval or one that is not a number fails both. *)
+Definition above0 (x : interval) : bool := match I.sign_strict x with Xgt => true | _ => false end.
+Definition below (x y : interval) : bool := above0 (sub y x).
+
+(** ** Forms: q(m), then q(m) and q(s), then the slopes from m to s *)
+
+Record form := Form { mid : interval; over : interval; slope : interval }.
+
+Definition constant (x : interval) : form := Form x x zero.
+Definition f_neg f := Form (I.neg (mid f)) (I.neg (over f)) (I.neg (slope f)).
+Definition f_add f g := Form (add (mid f) (mid g)) (add (over f) (over g)) (add (slope f) (slope g)).
+Definition f_sub f g := Form (sub (mid f) (mid g)) (sub (over f) (over g)) (sub (slope f) (slope g)).
+Definition f_mul f g := Form (mul (mid f) (mid g)) (mul (over f) (over g))
+  (add (mul (slope f) (over g)) (mul (mid f) (slope g))).
+Definition f_div f g :=
+  let q := div (mid f) (mid g) in
+  Form q (div (over f) (over g)) (div (sub (slope f) (mul q (slope g))) (over g)).
+(** Coq's square root of a negative number is 0, which has no slope: nothing is known where it might be one. *)
+Definition f_sqrt f :=
+  if above0 (mid f) && above0 (over f) then
+    let a := I.sqrt prec (mid f) in
+    let b := I.sqrt prec (over f) in
+    Form a b (div (slope f) (add a b))
+  else Form I.nai I.nai I.nai.
+Definition f_sin f := Form (I.sin prec (mid f)) (I.sin prec (over f)) (mul (I.cos prec (over f)) (slope f)).
+Definition f_cos f := Form (I.cos prec (mid f)) (I.cos prec (over f)) (I.neg (mul (I.sin prec (over f)) (slope f))).
+
+Variable offset : interval.       (* s - m *)
+Definition tight f := Form (mid f) (I.meet (over f) (add (mid f) (mul (slope f) offset))) (slope f).
+
+(** ** Poses *)
+
+Fixpoint eval (p : nat -> form) (e : expr) : form :=
+  match e with
+  | Number q => constant (fraction q)
+  | Pi => constant (I.pi prec)
+  | Param i => p i
+  | Minus e => f_neg (eval p e)
+  | Plus d e => f_add (eval p d) (eval p e)
+  | Sub d e => f_sub (eval p d) (eval p e)
+  | Times d e => f_mul (eval p d) (eval p e)
+  | Over d e => f_div (eval p d) (eval p e)
+  | Sqrt e => f_sqrt (eval p e)
+  | Sin e => f_sin (eval p e)
+  | Cos e => f_cos (eval p e)
+  end.
+
+Definition f_rot_x c s v :=
+  Vec (vx v) (f_sub (f_mul c (vy v)) (f_mul s (vz v))) (f_add (f_mul s (vy v)) (f_mul c (vz v))).
+Definition f_rot_y c s v :=
+  Vec (f_add (f_mul c (vx v)) (f_mul s (vz v))) (vy v) (f_sub (f_mul c (vz v)) (f_mul s (vx v))).
+Definition f_rot_z c s v :=
+  Vec (f_sub (f_mul c (vx v)) (f_mul s (vy v))) (f_add (f_mul s (vx v)) (f_mul c (vy v))) (vz v).
+Definition v_add u v := Vec (f_add (vx u) (vx v)) (f_add (vy u) (vy v)) (f_add (vz u) (vz v)).
+Definition v_sub u v := Vec (f_sub (vx u) (vx v)) (f_sub (vy u) (vy v)) (f_sub (vz u) (vz v)).
+Definition v_scale k v := Vec (f_mul k (vx v)) (f_mul k (vy v)) (f_mul k (vz v)).
+Definition v_tight v := Vec (tight (vx v)) (tight (vy v)) (tight (vz v)).
+Definition v_cross u v := Vec
+  (f_sub (f_mul (vy u) (vz v)) (f_mul (vz u) (vy v)))
+  (f_sub (f_mul (vz u) (vx v)) (f_mul (vx u) (vz v)))
+  (f_sub (f_mul (vx u) (vy v)) (f_mul (vy u) (vx v))).
+Definition v_rational (v : vec Q) := let k q := constant (fraction q) in Vec (k (vx v)) (k (vy v)) (k (vz v)).
+
+Definition v_rational_difference (u v : vec Q) := v_sub (v_rational u) (v_rational v).
+
+(** The images of the unit vectors. *)
+Definition rotation (a : angles) (p : nat -> form) : vec (vec form) :=
+  let i := constant one in
+  let o := constant zero in
+  let units := (Vec i o o, Vec o i o, Vec o o i) in
+  let three turn := let '(x, y, z) := units in Vec (turn x) (turn y) (turn z) in
+  let v := eval p in
+  match a with
+  | TiltTorsion phi theta sigma =>
+      let f := v phi in let t := v theta in let g := f_sub (v sigma) f in
+      let cf := f_cos f in let sf := f_sin f in let ct := f_cos t in let st := f_sin t in
+      let cg := f_cos g in let sg := f_sin g in
+      three (fun u => f_rot_z cf sf (f_rot_y ct st (f_rot_z cg sg u)))
+  | RollPitchYaw roll pitch yaw =>
+      let f := v yaw in let t := v pitch in let g := v roll in
+      let cf := f_cos f in let sf := f_sin f in let ct := f_cos t in let st := f_sin t in
+      let cg := f_cos g in let sg := f_sin g in
+      three (fun u => f_rot_z cf sf (f_rot_y ct st (f_rot_x cg sg u)))
+  | Zyz alpha beta gamma =>
+      let f := v alpha in let t := v beta in let g := v gamma in
+      let cf := f_cos f in let sf := f_sin f in let ct := f_cos t in let st := f_sin t in
+      let cg := f_cos g in let sg := f_sin g in
+      three (fun u => f_rot_z cf sf (f_rot_y ct st (f_rot_z cg sg u)))
+  end.
+
+Definition turned (R : vec (vec form)) (u : vec form) : vec form :=
+  v_add (v_add (v_scale (vx u) (vx R)) (v_scale (vy u) (vy R))) (v_scale (vz u) (vz R)).
+
+(** ** Six of something *)
+
+Definition sum (l : six interval) : interval := fold6 add l.
+Definition f_sum (l : six form) : form := fold6 f_add l.
+Definition every (l : six bool) : bool := fold6 andb l.
+Definition units : six (six Z) :=
+  (Six (Six 1 0 0 0 0 0) (Six 0 1 0 0 0 0) (Six 0 0 1 0 0 0)
+       (Six 0 0 0 1 0 0) (Six 0 0 0 0 1 0) (Six 0 0 0 0 0 1))%Z.
+
+(** ** The load: only ellipsoids whose matrix is diagonal, with a positive diagonal *)
+
+Definition diagonal (shape : six (six Q)) : six Q :=
+  Six (at1 (at1 shape)) (at2 (at2 shape)) (at3 (at3 shape)) (at4 (at4 shape)) (at5 (at5 shape)) (at6 (at6 shape)).
+Definition is_diagonal (shape : six (six Q)) : bool :=
+  every (zip6 (fun row unit => every (zip6 (fun e d =>
+    if Z.eqb d 0 then Qeq_bool e 0 else Z.ltb 0 (Qnum e)) row unit)) shape units).
+Definition in_scope (l : list item) : bool := forallb (fun '(Ellipsoid _ shape) => is_diagonal shape) l.
+
+Definition symmetric (x : interval) : interval := I.join (I.neg x) x.
+Definition item_range (c : six interval) (i : item) : interval :=
+  let '(Ellipsoid center shape) := i in
+  let middle := sum (zip6 (fun c q => mul c (fraction q)) c center) in
+  let square := sum (zip6 (fun c q => div (I.sqr prec c) (fraction q)) c (diagonal shape)) in
+  add middle (symmetric (I.sqrt prec square)).
+Definition load_range (l : list item) (c : six interval) : interval :=
+  fold_right (fun i t => add (item_range c i) t) zero l.
+
+(** ** A box *)
+
+Definition strictly (limits : Q * Q) (margin : Q) (x : interval) : bool :=
+  below (fraction (fst limits + margin)) x && below x (fraction (snd limits - margin)).
+
+(** The columns of D: a vector of force, and of moment about the load point. *)
+Definition column_form (R : vec (vec form)) (P : vec form) (m : machine) (c : cable) : six form :=
+  let u := v_rational (platform c) in
+  let d := v_tight (v_sub (v_add P (turned R u)) (v_rational (base c))) in
+  let r := v_tight (turned R (v_rational_difference (platform c) (load_point m))) in
+  let k := v_cross r d in
+  Six (vx d) (vy d) (vz d) (vx k) (vy k) (vz k).
+Definition length_range (d : six form) : interval :=
+  I.sqrt prec (add (add (I.sqr prec (over (at1 d))) (I.sqr prec (over (at2 d)))) (I.sqr prec (over (at3 d)))).
+
+(** C D, its difference from the unit matrix, and what C makes of what is left of the load. *)
+Definition product (C : six (six interval)) (columns : six (six form)) : six (six form) :=
+  map6 (fun c => map6 (fun d => f_sum (zip6 (fun a e => f_mul (constant a) e) c d)) columns) C.
+Definition error_ranges (CD : six (six form)) : six (six interval) :=
+  zip6 (fun row unit => zip6 (fun e z => over (tight (f_sub (constant (integer z)) e))) row unit) CD units.
+Definition rest_ranges (l : list item) (C : six (six interval)) (CD : six (six form)) (x0 : six interval) : six interval :=
+  zip6 (fun c row => sub (load_range l c)
+    (over (tight (f_sum (zip6 (fun e x => f_mul e (constant x)) row x0))))) C CD.
+
+Definition refine (W : six interval) (E : six (six interval)) (Y : six interval) : six interval :=
+  zip6 (fun w row => add w (sum (zip6 mul row Y))) W E.
+
+(** From ranges of I - C D, of W and of the lengths: whether all limits hold. *)
+Definition decide (m : machine) (tension_margin length_margin : Q) (lengths x0 : six interval)
+    (E : six (six interval)) (W : six interval) : bool :=
+  let rho := fold6 I.join (map6 (fun row => sum (map6 I.abs row)) E) in
+  let y0 := symmetric (div (fold6 I.join (map6 I.abs W)) (sub one rho)) in
+  let Y := refine W E (refine W E (Six y0 y0 y0 y0 y0 y0)) in
+  let tensions := zip6 mul lengths (zip6 add x0 Y) in
+  below rho one &&
+  every (zip6 (fun c t => strictly (tension c) tension_margin t) (cables m) tensions) &&
+  every (zip6 (fun c l => strictly (length c) length_margin l && above0 l) (cables m) lengths).
+
+Definition number (scale : positive) (z : Z) : interval := fraction (z # Pos.pow 2 scale).
+
+Definition check_pose (m : machine) (tension_margin length_margin : Q) (b : box) (p : nat -> form) : bool :=
+  let R := rotation (pose_angles m) p in
+  let P := Vec (eval p (vx (pose_position m))) (eval p (vy (pose_position m))) (eval p (vz (pose_position m))) in
+  let columns := map6 (column_form R P m) (cables m) in
+  let C := map6 (map6 (number (scale b))) (inverse b) in
+  let x0 := map6 (number (scale b)) (densities b) in
+  let CD := product C columns in
+  decide m tension_margin length_margin (map6 length_range columns) x0 (error_ranges CD)
+    (rest_ranges (load m) C CD x0).
+
+End Precision.
+
+Definition between (prec : F.precision) (l r : Q) : interval := I.join (fraction prec l) (fraction prec r).
+
+Definition parameter (prec : F.precision) (v w : waypoint) (m : interval) (S : interval) (i : nat) : form :=
+  let point u := let (q, h) := nth i u (0%Q, 0%Z) in
+                 add prec (fraction prec q) (mul prec (integer prec h) (I.pi prec)) in
+  let a := point v in
+  let k := sub prec (point w) a in
+  Form (add prec a (mul prec m k)) (add prec a (mul prec S k)) k.
+
+Definition check_box (prec : F.precision) (c : certificate) (v w : waypoint) (start : Q) (b : box) : bool :=
+  let middle := Qred ((start + upto b) * (1 # 2)) in
+  let m := fraction prec middle in
+  let S := between prec start (upto b) in
+  Qle_bool start (upto b) &&
+  check_pose prec (sub prec (I.join S m) m) (subject c) (tension_margin c) (length_margin c) b
+    (parameter prec v w m (I.join S m)).
+
+(** Boxes from [start] have to reach 1; no box is no proof. *)
+Fixpoint check_boxes (prec : F.precision) (c : certificate) (v w : waypoint) (start : Q) (l : list box) : bool :=
+  match l with
+  | [] => false
+  | [b] => Qeq_bool (upto b) 1 && check_box prec c v w start b
+  | b :: l => check_box prec c v w start b && check_boxes prec c v w (upto b) l
+  end.
+
+Fixpoint check_path (prec : F.precision) (c : certificate) (path : list waypoint) (l : list (list box)) : bool :=
+  match path, l with
+  | v :: (w :: _) as rest, b :: l => check_boxes prec c v w 0 b && check_path prec c rest l
+  | [_], [] => true
+  | _, _ => false
+  end.
+
+Definition check (c : certificate) : bool :=
+  Nat.leb 2 (List.length (path c)) && in_scope (load (subject c)) &&
+  check_path (F.PtoP (bits c)) c (path c) (boxes c).
+
+End Checker.
