@@ -5,13 +5,16 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "app/recheck.h"
+
 namespace taut {
 
 struct FormalArguments {
   std::string certificate_path;
-  std::string out;  ///< empty: the certificate's name with .v
+  std::string out;      ///< empty: beside the certificate, with its name and .v
+  std::string library;  ///< folder of formal/build's results; empty: where taut was built or installed
+  double max_seconds = kCheckSeconds;
   bool fast = false;
-  bool exact = false;
   bool no_coq = false;
 };
 

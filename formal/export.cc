@@ -8,7 +8,10 @@
 #include <stdexcept>
 
 #include "base/input_error.h"
+#include "checker/format/claims.h"
+#include "problem/decimal.h"
 #include "problem/expression.h"
+#include "problem/rational.h"
 
 namespace taut::formal {
 namespace {
@@ -17,7 +20,7 @@ namespace {
 constexpr std::size_t kMostCharacters = 20000;
 
 [[noreturn]] void refuse(const std::string& what) {
-  throw InputError(fmt::format("got {}, which formal/Statement.v does not express, expected a path without", what));
+  throw InputError(fmt::format("got {}, expected a certificate without: docs/formal.md says what Coq is told", what));
 }
 
 ExpressionTape pose_tape(const SpaceText& space) {
@@ -26,8 +29,9 @@ ExpressionTape pose_tape(const SpaceText& space) {
   return {{space.pose.begin(), space.pose.end()}, names, space.constants};
 }
 
-/// A rational number as an argument.
-std::string number(const RationalText& text) {
+/// A rational number as an argument, in the canonical form, which Coq reads: ".5" and "+1" it does not.
+std::string number(const RationalText& stated) {
+  const RationalText text = rational_text(parse_rational(stated));
   const std::size_t slash = text.find('/');
   if (slash != std::string::npos) return fmt::format("({} # {})", text.substr(0, slash), text.substr(slash + 1));
   return text.starts_with("-") ? "(" + text + ")" : text;
@@ -56,6 +60,8 @@ std::string six(const Range& numbers) {
 std::string vec(const std::array<DecimalText, 3>& v) {
   return fmt::format("(Vec {} {} {})", number(v[0]), number(v[1]), number(v[2]));
 }
+
+std::string pair(const Limits& limits) { return fmt::format("({}, {})", number(limits.lower), number(limits.upper)); }
 
 std::string power(const std::string& base, int exponent) {
   std::string product = base;
@@ -93,7 +99,6 @@ std::array<std::string, 6> pose_text(const SpaceText& space) {
   std::vector<std::string> slots;
   for (const Instruction& step : tape.instructions()) {
     if (step.op == Op::kCos) continue;  // written with the kSin before it
-    if (step.op == Op::kPower && step.b > 64) refuse("a power above 64");
     slots.push_back(step_text(tape, step, slots));
     if (slots.back().empty()) refuse("tan, exp, log or an inverse of sine, cosine or tangent in an expression");
     if (slots.back().size() > kMostCharacters) refuse("an expression of so many parts");
@@ -109,24 +114,55 @@ void require_load_in_scope(const LoadText& load) {
   if (!load.ellipsoid) refuse("a load without an ellipsoid");
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) {
-      if (i != j && (*load.ellipsoid)[i][j] != "0") refuse("an ellipsoid whose matrix is not diagonal");
+      if (i != j && parse_rational((*load.ellipsoid)[i][j]) != 0) refuse("an ellipsoid whose matrix is not diagonal");
     }
   }
 }
 
-std::string machine_text(const Problem& problem) {
-  const RobotText& robot = problem.robot;
+/// The problem with everything that machine_text() writes, and with what says nothing of which motions are feasible:
+/// names, the query, which parameters are periodic or have a range. Fields are copied one by one, so that a new field
+/// of a problem is missing here until somebody has thought of it.
+Problem stated_part(const Problem& problem) {
+  Problem stated;
+  stated.robot.base_anchors_m = problem.robot.base_anchors_m;
+  stated.robot.platform_anchors_m = problem.robot.platform_anchors_m;
+  stated.robot.tension_N = problem.robot.tension_N;
+  stated.robot.length_m = problem.robot.length_m;
+  stated.load.point_m = problem.load.point_m;
+  stated.load.wrench = problem.load.wrench;
+  stated.load.ellipsoid = problem.load.ellipsoid;
+  stated.load.ellipsoid_name = problem.load.ellipsoid_name;
+  for (const Parameter& parameter : problem.space.parameters) {
+    stated.space.parameters.push_back({parameter.name, parameter.kind, parameter.range_lower, parameter.range_upper});
+  }
+  stated.space.constants = problem.space.constants;
+  stated.space.angles.kind = problem.space.angles.kind;
+  stated.space.flip = problem.space.flip;
+  stated.space.pose = problem.space.pose;
+  stated.name = problem.name;
+  stated.query = problem.query;
+  return stated;
+}
+
+/// Names the first thing that is in the problem and not in what is written.
+void require_all_is_stated(const Problem& problem) {
+  const nlohmann::json whole = to_json(problem);
+  const nlohmann::json rest = nlohmann::json::diff(to_json(stated_part(problem)), whole);
+  if (!rest.empty()) refuse(fmt::format("'problem{}'", rest.front().at("path").get<std::string>()));
+}
+
+std::string machine_text(const Problem& stated) {
+  const RobotText& robot = stated.robot;
   std::string text = "Definition robot : machine := {|\n  cables := Six";
   for (std::size_t i = 0; i < 6; ++i) {
-    text += fmt::format("\n    (Cable {} {} ({}, {}) ({}, {}))", vec(robot.base_anchors_m[i]),
-                        vec(robot.platform_anchors_m[i]), robot.tension_N[i].lower, robot.tension_N[i].upper,
-                        robot.length_m[i].lower, robot.length_m[i].upper);
+    text += fmt::format("\n    (Cable {} {} {} {})", vec(robot.base_anchors_m[i]), vec(robot.platform_anchors_m[i]),
+                        pair(robot.tension_N[i]), pair(robot.length_m[i]));
   }
-  text += fmt::format(";\n  load_point := {};\n  load := [Ellipsoid {}\n    (Six", vec(problem.load.point_m),
-                      six(problem.load.wrench));
-  for (const auto& row : *problem.load.ellipsoid) text += "\n      " + six(row);
-  const std::array<std::string, 6> pose = pose_text(problem.space);
-  const AngleKind kind = problem.space.angles.kind;
+  text += fmt::format(";\n  load_point := {};\n  load := [Ellipsoid {}\n    (Six", vec(stated.load.point_m),
+                      six(stated.load.wrench));
+  for (const auto& row : *stated.load.ellipsoid) text += "\n      " + six(row);
+  const std::array<std::string, 6> pose = pose_text(stated.space);
+  const AngleKind kind = stated.space.angles.kind;
   text += fmt::format(")];\n  pose_position := Vec {} {} {};\n  pose_angles := {} {} {} {}\n|}}.\n", pose[0], pose[1],
                       pose[2],
                       kind == AngleKind::kTiltAndTorsion ? "TiltTorsion"
@@ -174,15 +210,22 @@ void require_in_scope(const Certificate& certificate) {
   if (!problem.space.constraints.empty()) refuse("constraints");
   if (problem.space.angles.kind == AngleKind::kAxis) refuse("a platform that turns about an axis");
   require_load_in_scope(problem.load);
+  require_all_is_stated(problem);
+  if (certificate.claim != checker::kProvedClaim) refuse("a claim of more than tensions and lengths");
   (void)pose_text(problem.space);
 }
 
-std::string coq_file(const Certificate& certificate, const std::vector<std::vector<Box>>& boxes, Instance instance) {
+std::string coq_file(const Certificate& certificate, const std::string& sha256,
+                     const std::vector<std::vector<Box>>& boxes, Instance instance) {
   std::vector<std::string> waypoints;
   for (const Waypoint& waypoint : certificate.path.waypoints) waypoints.push_back(waypoint_text(waypoint));
+  const Problem stated = stated_part(certificate.problem);
+  std::vector<std::string> names;
+  for (const Parameter& parameter : stated.space.parameters) names.push_back(parameter.name);
   return fmt::format(
-      "(* Written by taut formal. What is proved is at the end; its terms are defined in Statement.v.\n"
-      "   Compile: coqc -Q FOLDER Taut THIS_FILE, where FOLDER has taut's Coq library. *)\n"
+      "(* Written by taut formal from the certificate with the SHA-256 {}.\n"
+      "   The theorem is at the end; its terms are defined in Statement.v. Its parameters are, from 0: {}.\n"
+      "   Coq reads this with: coqc -Q FOLDER Taut THIS_FILE, where FOLDER has what formal/build compiles. *)\n"
       "From Coq Require Import QArith ZArith List.\n"
       "From Taut Require Import Statement Certificate Verify.\n"
       "Import ListNotations.\n"
@@ -195,9 +238,9 @@ std::string coq_file(const Certificate& certificate, const std::vector<std::vect
       "  bits := 30;\n"
       "  boxes := [\n{}]\n|}}.\n\n"
       "Theorem feasible : statement cert.\n"
-      "Proof. apply {}.check_sound. vm_compute. reflexivity. Qed.\n"
+      "Proof. apply {}.check_sound. vm_cast_no_check (eq_refl true). Qed.\n"
       "Print Assumptions feasible.\n",
-      machine_text(certificate.problem), fmt::join(waypoints, ";\n           "), boxes_text(boxes),
+      sha256, fmt::join(names, ", "), machine_text(stated), fmt::join(waypoints, ";\n           "), boxes_text(boxes),
       instance == Instance::kExact ? "Exact" : "Fast");
 }
 

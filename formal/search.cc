@@ -310,8 +310,8 @@ class Judge {
 
 }  // namespace
 
-std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certificate,
-                                                        const SearchProgress& progress, const std::stop_token& stop) {
+std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certificate, const SearchProgress& progress,
+                                                        const std::stop_token& stop) {
   const Problem& problem = certificate.problem;
   std::vector<std::string> names;
   for (const Parameter& parameter : problem.space.parameters) names.push_back(parameter.name);
@@ -340,9 +340,10 @@ std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certi
         continue;
       }
       if (box.depth == kMostDepth) {
-        throw InputError(fmt::format("segment {}: got a place near s = {:.6f} where even a box of 2^-{} is too large "
-                                     "for Coq's arithmetic, expected more room",
-                                     k + 1, std::ldexp(static_cast<double>(box.index), -box.depth), kMostDepth));
+        throw InputError(
+            fmt::format("segment {}: got a place near s = {:.6f} where even a box of 2^-{} is too large "
+                        "for Coq's arithmetic, expected more room",
+                        k + 1, std::ldexp(static_cast<double>(box.index), -box.depth), kMostDepth));
       }
       open.push_back(Box{box.depth + 1, 2 * box.index + 1});
       open.push_back(Box{box.depth + 1, 2 * box.index});

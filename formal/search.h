@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boxes and numbers by which Coq can prove a path: found in binary64 by the arithmetic that Coq repeats.
 //
-// Nothing is claimed of what is found; a mistake here makes Coq refuse a true certificate, and never accept a false one.
+// Nothing is claimed of what is found: a mistake here makes Coq refuse a true certificate, never accept a false one.
 #pragma once
 
 #include <array>

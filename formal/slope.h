@@ -15,12 +15,8 @@ struct Slope {
   explicit Slope(Interval constant) : mid(constant), over(constant) {}
   Slope(Interval at_middle, Interval anywhere, Interval rate) : mid(at_middle), over(anywhere), slope(rate) {}
 
-  friend Slope operator+(const Slope& f, const Slope& g) {
-    return {f.mid + g.mid, f.over + g.over, f.slope + g.slope};
-  }
-  friend Slope operator-(const Slope& f, const Slope& g) {
-    return {f.mid - g.mid, f.over - g.over, f.slope - g.slope};
-  }
+  friend Slope operator+(const Slope& f, const Slope& g) { return {f.mid + g.mid, f.over + g.over, f.slope + g.slope}; }
+  friend Slope operator-(const Slope& f, const Slope& g) { return {f.mid - g.mid, f.over - g.over, f.slope - g.slope}; }
   friend Slope operator-(const Slope& f) { return {-f.mid, -f.over, -f.slope}; }
   friend Slope operator*(const Slope& f, const Slope& g) {
     return {f.mid * g.mid, f.over * g.over, f.slope * g.over + f.mid * g.slope};
