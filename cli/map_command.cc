@@ -45,7 +45,7 @@ double share_of(const std::string& text) {
 }
 
 /// What a leaf takes: its nodes in the tree, what hangs together, and what is pending. [bytes]
-constexpr double kBytesPerCell = 120;
+constexpr double kBytesPerCell = 80;
 
 /// Memory that programs may take without swapping [bytes]; nothing where the system does not tell.
 std::optional<double> available_memory() {
@@ -219,7 +219,7 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
   command
       .add_option(
           "--cells", arguments.most_cells,
-          "the most cells, each of which takes up to 120 bytes of memory (default: 20000000; of three coordinates "
+          "the most cells, each of which takes up to 80 bytes of memory (default: 20000000; of three coordinates "
           "1000000, unless --undecided, --cell or --budget asks for more)")
       ->check(CLI::Range(std::size_t{10'000}, std::size_t{1'000'000'000}));
   command.add_option("--from", arguments.from,

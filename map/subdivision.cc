@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -22,8 +23,8 @@ namespace {
 struct Pending {
   Cell cell;
   std::uint32_t node = 0;
-  std::uint64_t proved = 0;  ///< of a cell that contains it
   std::uint32_t known = 0;   ///< its node in KnownVerdicts
+  std::uint64_t proved = 0;  ///< of a cell that contains it
 };
 
 CellVerdict known_verdict(const KnownVerdicts& known, std::uint32_t number) {
@@ -55,13 +56,15 @@ class Subdivision {
   }
 
   CellMap run() {
-    for (std::size_t size = 0; size < pending_.size(); ++size) {
-      // Cells of one size are judged in the order in which their parents were: `first` is the next.
-      for (std::size_t first = 0; first < pending_[size].size(); first += kBatch) {
+    for (std::deque<Pending>& cells : pending_) {
+      // Cells of one size are judged in the order in which their parents were.
+      while (!cells.empty()) {
         if (is_finished()) return std::move(map_);
-        judge({pending_[size].data() + first, std::min(kBatch, pending_[size].size() - first)});
+        const auto end = cells.begin() + static_cast<std::ptrdiff_t>(std::min(kBatch, cells.size()));
+        const std::vector<Pending> batch(cells.begin(), end);
+        cells.erase(cells.begin(), end);
+        judge(batch);
       }
-      pending_[size] = {};
     }
     map_.end = CellMap::End::kWidth;
     return std::move(map_);
@@ -127,7 +130,7 @@ class Subdivision {
     for (unsigned side = 0; side < 2; ++side) {
       const Cell half = pending.cell.half(*axis, side);
       pending_[static_cast<std::size_t>(half.halvings())].push_back(
-          {half, child + side, verdict.proved, known_ != nullptr ? known + side : 0});
+          {half, child + side, known_ != nullptr ? known + side : 0, verdict.proved});
     }
   }
 
@@ -137,7 +140,7 @@ class Subdivision {
   const KnownVerdicts* known_;
   HalvingRule rule_;
   CellMap map_;
-  std::vector<std::vector<Pending>> pending_;  ///< by the number of halvings: the largest first
+  std::vector<std::deque<Pending>> pending_;  ///< by the number of halvings: the largest first
   std::vector<CellVerdict> verdicts_;
 };
 

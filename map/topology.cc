@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "certify/arithmetic/mp_interval.h"
 #include "map/disjoint_sets.h"
@@ -365,32 +366,41 @@ class Poles {
   Pole zero_, pi_;
 };
 
-/// Numbers the components of the leaves that `is_member` names, the largest first.
+/// Numbers the components of the leaves that `is_member` names, the largest first; of equal ones, that with the least
+/// node. Only such leaves are joined in `sets`.
 template <class IsMember>
 std::vector<MapComponent> number(const CellMap& map, DisjointSets& sets, const IsMember& is_member,
                                  std::vector<std::uint32_t>& component_of) {
-  std::vector<MapComponent> by_root(map.nodes.size());
+  struct Found {
+    std::uint32_t root;
+    MapComponent component;
+  };
+  std::vector<Found> found;
+  component_of.assign(map.nodes.size(), MapTopology::kNone);
   map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
     if (!is_member(map.nodes[node].kind)) return;
-    MapComponent& component = by_root[sets.find(node)];
+    const std::uint32_t root = sets.find(node);
+    if (component_of[root] == MapTopology::kNone) {
+      component_of[root] = static_cast<std::uint32_t>(found.size());
+      found.push_back({root, {}});
+    }
+    component_of[node] = component_of[root];
+    MapComponent& component = found[component_of[root]].component;
     component.volume += cell.volume();
     ++component.cells;
   });
-  std::vector<std::uint32_t> roots;
-  for (std::uint32_t node = 0; node < by_root.size(); ++node) {
-    if (by_root[node].cells > 0) roots.push_back(node);
-  }
-  std::ranges::stable_sort(roots, std::ranges::greater(), [&](std::uint32_t n) { return by_root[n].volume; });
-  std::vector<std::uint32_t> number_of(map.nodes.size(), MapTopology::kNone);
-  std::vector<MapComponent> result;
-  for (const std::uint32_t root : roots) {
-    number_of[root] = static_cast<std::uint32_t>(result.size());
-    result.push_back(by_root[root]);
-  }
-  component_of.assign(map.nodes.size(), MapTopology::kNone);
-  map.for_each_leaf([&](const Cell&, std::uint32_t node) {
-    if (is_member(map.nodes[node].kind)) component_of[node] = number_of[sets.find(node)];
+  std::vector<std::uint32_t> order(found.size()), number_of(found.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    const double difference = found[a].component.volume - found[b].component.volume;
+    return difference != 0 ? difference > 0 : found[a].root < found[b].root;
   });
+  std::vector<MapComponent> result;
+  for (const std::uint32_t n : order) {
+    number_of[n] = static_cast<std::uint32_t>(result.size());
+    result.push_back(found[n].component);
+  }
+  for (std::uint32_t& n : component_of) n = n == MapTopology::kNone ? n : number_of[n];
   return result;
 }
 
