@@ -26,6 +26,7 @@
 #include "cli/console.h"
 #include "cli/doctor_command.h"
 #include "cli/explain_command.h"
+#include "cli/formal_command.h"
 #include "cli/init_command.h"
 #include "cli/map_command.h"
 #include "cli/output.h"
@@ -151,6 +152,9 @@ std::vector<Command> add_commands(CLI::App& app) {
   commands.push_back(add_command<MapArguments>(app, "map",
                                                "prove which poses are feasible, of two or three free coordinates",
                                                add_map_options, proving(ErrorCode::kCase, run_map)));
+  commands.push_back(add_command<FormalArguments>(app, "formal",
+                                                  "write a proved certificate as a theorem for Coq, and run Coq",
+                                                  add_formal_options, proving(ErrorCode::kCertificate, run_formal)));
   return commands;
 }
 

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formal/export.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "base/input_error.h"
+#include "checker/format/claims.h"
+#include "problem/decimal.h"
+#include "problem/expression.h"
+#include "problem/rational.h"
+
+namespace taut::formal {
+namespace {
+
+/// The longest expression that is written: a tape's shared parts are repeated.
+constexpr std::size_t kMostCharacters = 20000;
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw InputError(fmt::format("got {}, expected a certificate without: docs/formal.md says what Coq is told", what));
+}
+
+ExpressionTape pose_tape(const SpaceText& space) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : space.parameters) names.push_back(parameter.name);
+  return {{space.pose.begin(), space.pose.end()}, names, space.constants};
+}
+
+/// A rational number as an argument, in the canonical form, which Coq reads: ".5" and "+1" it does not.
+std::string number(const RationalText& stated) {
+  const RationalText text = rational_text(parse_rational(stated));
+  const std::size_t slash = text.find('/');
+  if (slash != std::string::npos) return fmt::format("({} # {})", text.substr(0, slash), text.substr(slash + 1));
+  return text.starts_with("-") ? "(" + text + ")" : text;
+}
+
+std::string hex(double x) {
+  const std::string text = hex_float(x);
+  return text.starts_with("-") ? "(" + text + ")" : text;
+}
+
+std::string integer(long n) { return n < 0 ? fmt::format("({})", n) : fmt::format("{}", n); }
+
+template <class Range>
+std::string six(const Range& numbers) {
+  std::string text = "(Six";
+  for (const auto& x : numbers) {
+    if constexpr (std::is_integral_v<std::decay_t<decltype(x)>>) {
+      text += " " + integer(x);
+    } else {
+      text += " " + number(x);
+    }
+  }
+  return text + ")";
+}
+
+std::string vec(const std::array<DecimalText, 3>& v) {
+  return fmt::format("(Vec {} {} {})", number(v[0]), number(v[1]), number(v[2]));
+}
+
+std::string pair(const Limits& limits) { return fmt::format("({}, {})", number(limits.lower), number(limits.upper)); }
+
+std::string power(const std::string& base, int exponent) {
+  std::string product = base;
+  for (int i = 1; i < exponent; ++i) product = fmt::format("(Times {} {})", product, base);
+  return product;
+}
+
+/// One step of a tape in Coq; empty where Statement.v has no such operation, and for the cosine beside a sine.
+std::string step_text(const ExpressionTape& tape, const Instruction& step, const std::vector<std::string>& slots) {
+  const auto a = [&]() -> const std::string& { return slots.at(static_cast<std::size_t>(step.a)); };
+  const auto two = [&](const char* name) {
+    return fmt::format("({} {} {})", name, a(), slots.at(static_cast<std::size_t>(step.b)));
+  };
+  switch (step.op) {
+    case Op::kConstant: {
+      const DecimalText& text = tape.constants().at(static_cast<std::size_t>(step.a));
+      return text == "pi" ? "Pi" : fmt::format("(Number {})", number(text));
+    }
+    case Op::kParameter: return fmt::format("(Param {})", step.a);
+    case Op::kAdd: return two("Plus");
+    case Op::kSubtract: return two("Sub");
+    case Op::kMultiply: return two("Times");
+    case Op::kDivide: return two("Over");
+    case Op::kNegate: return fmt::format("(Minus {})", a());
+    case Op::kPower: return power(a(), step.b);
+    case Op::kSqrt: return fmt::format("(Sqrt {})", a());
+    case Op::kSin: return fmt::format("(Sin {})", a());
+    default: return {};
+  }
+}
+
+/// The pose's six expressions. @throws InputError for a function that Statement.v does not have.
+std::array<std::string, 6> pose_text(const SpaceText& space) {
+  const ExpressionTape tape = pose_tape(space);
+  std::vector<std::string> slots;
+  for (const Instruction& step : tape.instructions()) {
+    if (step.op == Op::kCos) continue;  // written with the kSin before it
+    slots.push_back(step_text(tape, step, slots));
+    if (slots.back().empty()) refuse("tan, exp, log or an inverse of sine, cosine or tangent in an expression");
+    if (slots.back().size() > kMostCharacters) refuse("an expression of so many parts");
+    if (step.op == Op::kSin) slots.push_back(fmt::format("(Cos {})", slots.at(static_cast<std::size_t>(step.a))));
+  }
+  std::array<std::string, 6> text;
+  for (std::size_t i = 0; i < 6; ++i) text[i] = slots.at(static_cast<std::size_t>(tape.outputs()[i]));
+  return text;
+}
+
+void require_load_in_scope(const LoadText& load) {
+  if (!load.items.empty()) refuse("items of the load");
+  if (!load.ellipsoid) refuse("a load without an ellipsoid");
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      if (i != j && parse_rational((*load.ellipsoid)[i][j]) != 0) refuse("an ellipsoid whose matrix is not diagonal");
+    }
+  }
+}
+
+/// The problem with everything that machine_text() writes, and with what says nothing of which motions are feasible:
+/// names, the query, which parameters are periodic or have a range. Fields are copied one by one, so that a new field
+/// of a problem is missing here until somebody has thought of it.
+Problem stated_part(const Problem& problem) {
+  Problem stated;
+  stated.robot.base_anchors_m = problem.robot.base_anchors_m;
+  stated.robot.platform_anchors_m = problem.robot.platform_anchors_m;
+  stated.robot.tension_N = problem.robot.tension_N;
+  stated.robot.length_m = problem.robot.length_m;
+  stated.load.point_m = problem.load.point_m;
+  stated.load.wrench = problem.load.wrench;
+  stated.load.ellipsoid = problem.load.ellipsoid;
+  stated.load.ellipsoid_name = problem.load.ellipsoid_name;
+  for (const Parameter& parameter : problem.space.parameters) {
+    stated.space.parameters.push_back({parameter.name, parameter.kind, parameter.range_lower, parameter.range_upper});
+  }
+  stated.space.constants = problem.space.constants;
+  stated.space.angles.kind = problem.space.angles.kind;
+  stated.space.flip = problem.space.flip;
+  stated.space.pose = problem.space.pose;
+  stated.name = problem.name;
+  stated.query = problem.query;
+  return stated;
+}
+
+/// Names the first thing that is in the problem and not in what is written.
+void require_all_is_stated(const Problem& problem) {
+  const nlohmann::json whole = to_json(problem);
+  const nlohmann::json rest = nlohmann::json::diff(to_json(stated_part(problem)), whole);
+  if (!rest.empty()) refuse(fmt::format("'problem{}'", rest.front().at("path").get<std::string>()));
+}
+
+std::string machine_text(const Problem& stated) {
+  const RobotText& robot = stated.robot;
+  std::string text = "Definition robot : machine := {|\n  cables := Six";
+  for (std::size_t i = 0; i < 6; ++i) {
+    text += fmt::format("\n    (Cable {} {} {} {})", vec(robot.base_anchors_m[i]), vec(robot.platform_anchors_m[i]),
+                        pair(robot.tension_N[i]), pair(robot.length_m[i]));
+  }
+  text += fmt::format(";\n  load_point := {};\n  load := [Ellipsoid {}\n    (Six", vec(stated.load.point_m),
+                      six(stated.load.wrench));
+  for (const auto& row : *stated.load.ellipsoid) text += "\n      " + six(row);
+  const std::array<std::string, 6> pose = pose_text(stated.space);
+  const AngleKind kind = stated.space.angles.kind;
+  text += fmt::format(")];\n  pose_position := Vec {} {} {};\n  pose_angles := {} {} {} {}\n|}}.\n", pose[0], pose[1],
+                      pose[2],
+                      kind == AngleKind::kTiltAndTorsion ? "TiltTorsion"
+                      : kind == AngleKind::kRollPitchYaw ? "RollPitchYaw"
+                                                         : "Zyz",
+                      pose[3], pose[4], pose[5]);
+  return text;
+}
+
+std::string waypoint_text(const Waypoint& waypoint) {
+  std::vector<std::string> coordinates;
+  for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
+    coordinates.push_back(fmt::format("({}, {}%Z)", hex(waypoint.x[j]), integer(waypoint.half_turns[j])));
+  }
+  return fmt::format("[{}]", fmt::join(coordinates, "; "));
+}
+
+std::string box_text(const Box& box) {
+  const long end = box.index + 1;
+  std::string text = fmt::format("Box ({} # {}) {} (Six", end, 1L << box.depth, box.scale);
+  for (const auto& row : box.inverse) text += "\n       " + six(row);
+  return text + fmt::format(")%Z\n       {}%Z", six(box.densities));
+}
+
+std::string boxes_text(const std::vector<std::vector<Box>>& boxes) {
+  std::vector<std::string> segments;
+  for (const std::vector<Box>& segment : boxes) {
+    std::vector<std::string> texts;
+    for (const Box& box : segment) texts.push_back(box_text(box));
+    segments.push_back(fmt::format("    [{}]", fmt::join(texts, ";\n     ")));
+  }
+  return fmt::format("{}", fmt::join(segments, ";\n"));
+}
+
+}  // namespace
+
+void require_in_scope(const Certificate& certificate) {
+  const Problem& problem = certificate.problem;
+  if (certificate.path.interpolation != Interpolation::kStraight) {
+    refuse(fmt::format("a path that is {}", interpolation_name(certificate.path.interpolation)));
+  }
+  if (certificate.path.segments() == 0) refuse("a path of a single waypoint");
+  if (problem.tolerances) refuse("tolerances");
+  if (problem.bodies) refuse("bodies");
+  if (!problem.space.constraints.empty()) refuse("constraints");
+  if (problem.space.angles.kind == AngleKind::kAxis) refuse("a platform that turns about an axis");
+  require_load_in_scope(problem.load);
+  require_all_is_stated(problem);
+  if (certificate.claim != checker::kProvedClaim) refuse("a claim of more than tensions and lengths");
+  (void)pose_text(problem.space);
+}
+
+std::string coq_file(const Certificate& certificate, const std::string& sha256,
+                     const std::vector<std::vector<Box>>& boxes, Instance instance) {
+  std::vector<std::string> waypoints;
+  for (const Waypoint& waypoint : certificate.path.waypoints) waypoints.push_back(waypoint_text(waypoint));
+  const Problem stated = stated_part(certificate.problem);
+  std::vector<std::string> names;
+  for (const Parameter& parameter : stated.space.parameters) names.push_back(parameter.name);
+  return fmt::format(
+      "(* Written by taut formal from the certificate with the SHA-256 {}.\n"
+      "   The theorem is at the end; its terms are defined in Statement.v. Its parameters are, from 0: {}.\n"
+      "   Coq reads this with: coqc -Q FOLDER Taut THIS_FILE, where FOLDER has what formal/build compiles. *)\n"
+      "From Coq Require Import QArith ZArith List.\n"
+      "From Taut Require Import Statement Certificate Verify.\n"
+      "Import ListNotations.\n"
+      "Open Scope Q_scope.\n\n"
+      "{}\n"
+      "Definition cert : certificate := {{|\n"
+      "  subject := robot;\n"
+      "  path := [{}];\n"
+      "  tension_margin := 0; length_margin := 0;\n"
+      "  bits := 30;\n"
+      "  boxes := [\n{}]\n|}}.\n\n"
+      "Theorem feasible : statement cert.\n"
+      "Proof. apply {}.check_sound. vm_cast_no_check (eq_refl true). Qed.\n"
+      "Print Assumptions feasible.\n",
+      sha256, fmt::join(names, ", "), machine_text(stated), fmt::join(waypoints, ";\n           "), boxes_text(boxes),
+      instance == Instance::kExact ? "Exact" : "Fast");
+}
+
+}  // namespace taut::formal

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formal/search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/input_error.h"
+#include "formal/slope.h"
+#include "problem/expression.h"
+#include "problem/rational.h"
+
+namespace taut::formal {
+namespace {
+
+constexpr int kMostDepth = 20;
+constexpr int kFigures = 20;
+/// What is kept of each limit beyond what Coq asks for, as a share of its range: Coq may compute with 30 bits.
+constexpr double kSpare = 1e-5;
+constexpr double kLargestNorm = 0.999;
+
+using Vector = std::array<Slope, 3>;
+using Matrix = std::array<std::array<double, 6>, 6>;
+
+Vector operator+(const Vector& u, const Vector& v) { return {u[0] + v[0], u[1] + v[1], u[2] + v[2]}; }
+Vector operator-(const Vector& u, const Vector& v) { return {u[0] - v[0], u[1] - v[1], u[2] - v[2]}; }
+Vector cross(const Vector& u, const Vector& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// What is the same for all boxes; made under run_upward().
+struct Machine {
+  std::array<Vector, 6> base, platform, lever;
+  std::array<Interval, 6> wrench, shape;
+  std::array<std::array<Interval, 2>, 6> tension, length;
+};
+
+Interval number(const DecimalText& text) { return ScalarTraits<Interval>::from_decimal(text); }
+Vector vector(const std::array<DecimalText, 3>& text) {
+  return {Slope(number(text[0])), Slope(number(text[1])), Slope(number(text[2]))};
+}
+
+Machine machine(const Problem& problem) {
+  Machine m;
+  const Vector load_point = vector(problem.load.point_m);
+  for (std::size_t i = 0; i < 6; ++i) {
+    m.base[i] = vector(problem.robot.base_anchors_m[i]);
+    m.platform[i] = vector(problem.robot.platform_anchors_m[i]);
+    m.lever[i] = m.platform[i] - load_point;
+    m.wrench[i] = number(problem.load.wrench[i]);
+    m.shape[i] = from_rational<Interval>((*problem.load.ellipsoid)[i][i]);
+    m.tension[i] = {number(problem.robot.tension_N[i].lower), number(problem.robot.tension_N[i].upper)};
+    m.length[i] = {number(problem.robot.length_m[i].lower), number(problem.robot.length_m[i].upper)};
+  }
+  return m;
+}
+
+/// The expressions of in_scope() on slopes.
+std::array<Slope, 6> evaluate(const ExpressionTape& tape, const std::vector<Slope>& parameters) {
+  std::vector<Slope> slots;
+  for (const Instruction& step : tape.instructions()) {
+    const auto a = [&]() -> const Slope& { return slots.at(static_cast<std::size_t>(step.a)); };
+    const auto b = [&]() -> const Slope& { return slots.at(static_cast<std::size_t>(step.b)); };
+    const auto index = static_cast<std::size_t>(step.a);
+    switch (step.op) {
+      case Op::kConstant: {
+        const DecimalText& text = tape.constants().at(index);
+        slots.emplace_back(text == "pi" ? ScalarTraits<Interval>::pi() : number(text));
+        break;
+      }
+      case Op::kParameter: slots.push_back(Slope(parameters.at(index))); break;
+      case Op::kAdd: slots.push_back(a() + b()); break;
+      case Op::kSubtract: slots.push_back(a() - b()); break;
+      case Op::kMultiply: slots.push_back(a() * b()); break;
+      case Op::kDivide: slots.push_back(a() / b()); break;
+      case Op::kNegate: slots.push_back(-a()); break;
+      case Op::kPower: {
+        Slope product = a();
+        for (int i = 1; i < step.b; ++i) product = product * a();
+        slots.push_back(product);
+        break;
+      }
+      case Op::kSqrt: slots.push_back(sqrt(a())); break;
+      case Op::kSin: {
+        const SinCos<Slope> both = sincos(a());
+        slots.push_back(both.sin);
+        slots.push_back(both.cos);
+        break;
+      }
+      case Op::kCos: break;  // pushed by the kSin before it
+      default: throw std::logic_error("an expression outside of the scope");
+    }
+  }
+  std::array<Slope, 6> values;
+  for (std::size_t i = 0; i < 6; ++i) values[i] = slots.at(static_cast<std::size_t>(tape.outputs()[i]));
+  return values;
+}
+
+/// v turned about the axis `axis` of the world.
+Vector turned(const SinCos<Slope>& angle, std::size_t axis, const Vector& v) {
+  const std::size_t y = (axis + 1) % 3;
+  const std::size_t z = (axis + 2) % 3;
+  Vector result = v;
+  result[y] = angle.cos * v[y] - angle.sin * v[z];
+  result[z] = angle.sin * v[y] + angle.cos * v[z];
+  return result;
+}
+
+/// The images of the unit vectors.
+std::array<Vector, 3> rotation(AngleKind kind, const std::array<Slope, 6>& pose) {
+  std::array<Slope, 3> angles{pose[3], pose[4], pose[5]};
+  std::array<std::size_t, 3> axes{2, 1, 2};
+  if (kind == AngleKind::kTiltAndTorsion) angles[2] = pose[5] - pose[3];
+  if (kind == AngleKind::kRollPitchYaw) {
+    std::swap(angles[0], angles[2]);
+    axes[2] = 0;
+  }
+  std::array<Vector, 3> columns;
+  for (std::size_t i = 0; i < 3; ++i) {
+    columns[i][i] = Slope(Interval(1.0));
+    for (std::size_t k = 3; k-- > 0;) columns[i] = turned(sincos(angles[k]), axes[k], columns[i]);
+  }
+  return columns;
+}
+
+Vector image(const std::array<Vector, 3>& columns, const Vector& v) {
+  Vector result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result[i] = v[0] * columns[0][i] + v[1] * columns[1][i] + v[2] * columns[2][i];
+  }
+  return result;
+}
+
+Vector tight(Vector v, Interval t) {
+  for (Slope& x : v) x = formal::tight(x, t);
+  return v;
+}
+
+bool invert(Matrix a, Matrix& inverse) {
+  inverse = {};
+  for (std::size_t i = 0; i < 6; ++i) inverse[i][i] = 1;
+  for (std::size_t k = 0; k < 6; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < 6; ++i) pivot = std::abs(a[i][k]) > std::abs(a[pivot][k]) ? i : pivot;
+    if (!(std::abs(a[pivot][k]) > 0)) return false;
+    std::swap(a[k], a[pivot]);
+    std::swap(inverse[k], inverse[pivot]);
+    const double factor = 1 / a[k][k];
+    for (std::size_t j = 0; j < 6; ++j) {
+      a[k][j] *= factor;
+      inverse[k][j] *= factor;
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+      const double share = a[i][k];
+      if (i == k) continue;
+      for (std::size_t j = 0; j < 6; ++j) {
+        a[i][j] -= share * a[k][j];
+        inverse[i][j] -= share * inverse[k][j];
+      }
+    }
+  }
+  return true;
+}
+
+/// One segment's search.
+class Judge {
+ public:
+  Judge(const Problem& problem, const ExpressionTape& tape, const Segment& segment)
+      : problem_(problem), tape_(tape), segment_(segment), machine_(machine(problem)) {}
+
+  /// Sets the numbers of a box; whether Coq will accept it. Under run_upward().
+  bool judge(Box& box) {
+    const double width = std::ldexp(1.0, -box.depth);
+    const double begin = static_cast<double>(box.index) * width;
+    t_ = Interval(-width / 2, width / 2);
+    place(Interval(begin, begin + width), Interval(begin + width / 2));
+    return choose(box) && contracts(box) && is_inside(box);
+  }
+
+ private:
+  void place(Interval s, Interval middle) {
+    std::vector<Slope> parameters;
+    for (std::size_t j = 0; j < problem_.space.parameters.size(); ++j) {
+      const Polynomial<Interval> line = coordinate_polynomial<Interval>(segment_, j);
+      parameters.emplace_back(line.at(middle), line.at(s), line.slope(s));
+    }
+    const std::array<Slope, 6> pose = evaluate(tape_, parameters);
+    const std::array<Vector, 3> columns = rotation(problem_.space.angles.kind, pose);
+    const Vector position{pose[0], pose[1], pose[2]};
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Vector d = tight(position + image(columns, machine_.platform[i]) - machine_.base[i], t_);
+      const Vector moment = cross(tight(image(columns, machine_.lever[i]), t_), d);
+      length_[i] = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        d_[k][i] = d[k];
+        d_[k + 3][i] = moment[k];
+      }
+    }
+  }
+
+  /// C and x0, rounded to about twenty bits of the smallest row of C.
+  bool choose(Box& box) {
+    Matrix middle{};
+    Matrix inverse{};
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < 6; ++j) middle[i][j] = midpoint_approx(d_[i][j].mid);
+    }
+    if (!invert(middle, inverse)) return false;
+    double smallest = HUGE_VAL;
+    for (const auto& row : inverse) {
+      double largest = 0;
+      for (const double x : row) largest = std::max(largest, std::abs(x));
+      smallest = std::min(smallest, largest);
+    }
+    if (!(smallest > 0 && smallest < HUGE_VAL)) return false;
+    box.scale = std::clamp(kFigures - std::ilogb(smallest), 1, 60);
+    const double unit = std::ldexp(1.0, box.scale);
+    for (std::size_t i = 0; i < 6; ++i) {
+      double density = 0;
+      for (std::size_t j = 0; j < 6; ++j) {
+        if (!(std::abs(inverse[i][j]) * unit < 1e18)) return false;
+        box.inverse[i][j] = std::lrint(inverse[i][j] * unit);
+        density += inverse[i][j] * midpoint_approx(machine_.wrench[j]);
+      }
+      if (!(std::abs(density) * unit < 1e18)) return false;
+      box.densities[i] = std::lrint(density * unit);
+    }
+    unit_ = std::ldexp(1.0, -box.scale);
+    return true;
+  }
+
+  [[nodiscard]] Interval scaled(long n) const { return unit_ * Interval(static_cast<double>(n)); }
+
+  /// Sets E = I - C D and its norm.
+  bool contracts(const Box& box) {
+    norm_ = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      double sum = 0;
+      for (std::size_t j = 0; j < 6; ++j) {
+        Slope product;
+        for (std::size_t k = 0; k < 6; ++k) product = product + Slope(scaled(box.inverse[i][k])) * d_[k][j];
+        e_[i][j] = formal::tight(Slope(Interval(i == j ? 1.0 : 0.0)) - product, t_).over;
+        sum += magnitude(e_[i][j]);
+      }
+      norm_ = std::max(norm_, sum);
+    }
+    return norm_ < kLargestNorm;
+  }
+
+  /// What C maps the load to, without C D x0.
+  [[nodiscard]] Interval residual(const Box& box, std::size_t i) const {
+    Interval center(0.0);
+    Interval spread(0.0);
+    Slope balanced;
+    for (std::size_t k = 0; k < 6; ++k) {
+      const Interval c = scaled(box.inverse[i][k]);
+      center += c * machine_.wrench[k];
+      spread += c * c / machine_.shape[k];
+      Slope row;
+      for (std::size_t j = 0; j < 6; ++j) row = row + d_[k][j] * Slope(scaled(box.densities[j]));
+      balanced = balanced + Slope(c) * row;
+    }
+    const double radius = sqrt(spread).upper();
+    return center + Interval(-radius, radius) - formal::tight(balanced, t_).over;
+  }
+
+  [[nodiscard]] bool is_inside(const Box& box) const {
+    std::array<Interval, 6> w;
+    double largest = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      w[i] = residual(box, i);
+      largest = std::max(largest, magnitude(w[i]));
+    }
+    const double bound = largest / (1 - norm_);
+    std::array<Interval, 6> y;
+    y.fill(Interval(-bound, bound));
+    for (int round = 0; round < 2; ++round) {
+      const std::array<Interval, 6> before = y;
+      for (std::size_t i = 0; i < 6; ++i) {
+        y[i] = w[i];
+        for (std::size_t j = 0; j < 6; ++j) y[i] += e_[i][j] * before[j];
+      }
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Interval length = formal::tight(length_[i], t_).over;
+      if (!keeps(machine_.length[i], length)) return false;
+      if (!keeps(machine_.tension[i], length * (scaled(box.densities[i]) + y[i]))) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] static bool keeps(const std::array<Interval, 2>& limits, Interval value) {
+    const double spare = kSpare * (limits[1].upper() - limits[0].lower());
+    return limits[0].upper() + spare < value.lower() && value.upper() + spare < limits[1].lower();
+  }
+
+  const Problem& problem_;
+  const ExpressionTape& tape_;
+  const Segment& segment_;
+  Machine machine_;
+  Interval t_{0.0};
+  std::array<std::array<Slope, 6>, 6> d_;
+  std::array<std::array<Interval, 6>, 6> e_;
+  std::array<Slope, 6> length_;
+  double norm_ = 0;
+  double unit_ = 1;
+};
+
+}  // namespace
+
+std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certificate, const SearchProgress& progress,
+                                                        const std::stop_token& stop) {
+  const Problem& problem = certificate.problem;
+  std::vector<std::string> names;
+  for (const Parameter& parameter : problem.space.parameters) names.push_back(parameter.name);
+  const ExpressionTape tape({problem.space.pose.begin(), problem.space.pose.end()}, names, problem.space.constants);
+  std::vector<std::vector<Box>> all;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < certificate.path.segments(); ++k) {
+    const Segment segment = certificate.path.segment(k);
+    std::optional<Judge> judge;
+    std::vector<Box> open{Box{}};
+    all.emplace_back();
+    while (!open.empty()) {
+      if (stop.stop_requested()) return std::nullopt;
+      progress(k, certificate.path.segments(), count);
+      Box box = open.back();
+      open.pop_back();
+      bool accepted = false;
+      const bool is_valid = run_upward([&] {
+        if (!judge) judge.emplace(problem, tape, segment);
+        Faults<Interval>::clear();
+        accepted = judge->judge(box);
+      });
+      if (is_valid && accepted) {
+        all.back().push_back(box);
+        ++count;
+        continue;
+      }
+      if (box.depth == kMostDepth) {
+        throw InputError(
+            fmt::format("segment {}: got a place near s = {:.6f} where even a box of 2^-{} is too large "
+                        "for Coq's arithmetic, expected more room",
+                        k + 1, std::ldexp(static_cast<double>(box.index), -box.depth), kMostDepth));
+      }
+      open.push_back(Box{box.depth + 1, 2 * box.index + 1});
+      open.push_back(Box{box.depth + 1, 2 * box.index});
+    }
+  }
+  return all;
+}
+
+}  // namespace taut::formal
