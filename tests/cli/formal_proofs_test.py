@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""taut formal with Coq, which formal/build has made ready: what is true is proved, and what is not is refused.
+
+.ci/nightly runs it; it takes some three minutes.
+
+Usage: formal_proofs_test.py TAUT TAUT_CHECK SOURCE_DIR
+"""
+import json
+import math
+import os
+import re
+from fractions import Fraction
+
+from command_line import CASES, ROBOT1, SOURCE, TAUT, InFolder, main, run, text_of
+
+LIBRARY = os.path.join(SOURCE, "formal")
+SPHERE = os.path.join(CASES, "robot2-sphere-q1-q2.yaml")
+ROLL_PITCH_YAW = os.path.join(CASES, "robot1-roll-pitch-yaw.yaml")
+AXIOMS = {"sig_not_dec", "sig_forall_dec", "functional_extensionality_dep", "epsilon_statement", "classic"}
+POSES = 12          # of each robot
+SCALE = 30
+ROOM = Fraction(1, 10**10)
+OVERSTATED = Fraction(1, 10**12)
+
+
+class Proofs(InFolder):
+    def plan(self, case):
+        said = run(TAUT, "plan", case, "--out", self.out, "--no-report", "--headroom", "0")
+        self.assertEqual(said.returncode, 0, said.stderr)
+        return self.path("certificate.json")
+
+    def written(self, case):
+        """What is written of the path of a case, for computing in floating point."""
+        said = run(TAUT, "formal", self.plan(case), "--no-coq", "--fast", "--out", self.path("written.v"))
+        self.assertEqual(said.returncode, 0, said.stderr)
+        return text_of(self.path("written.v"))
+
+    def coqc(self, text):
+        return run("coqc", "-q", "-Q", LIBRARY, "Taut", self.write("asked.v", text))
+
+
+class WhatIsTrue(Proofs):
+    def test_the_kernel_proves_what_is_written(self):
+        for case, options in ((ROBOT1, []), (SPHERE, ["--fast"]), (ROLL_PITCH_YAW, ["--fast"])):
+            with self.subTest(case):
+                said = run(TAUT, "formal", self.plan(case), *options)
+                self.assertEqual(said.returncode, 0, said.stderr)
+                self.assertIn("Checked by Coq's kernel in", said.stdout)
+                if not options:
+                    names = re.search(r"rests on these axioms: ([^:]*)\.\s*$", said.stdout).group(1)
+                    self.assertEqual({name.strip().split(".")[-1] for name in names.split(",")}, AXIOMS)
+                self.assertFalse([name for name in os.listdir(self.out) if name.endswith((".vo", ".glob", ".aux"))])
+        self.assertEqual(len(re.findall("^Theorem", text_of(self.path("certificate.v")), re.M)), 1)
+
+
+class WhatIsNotTrue(Proofs):
+    def test_the_kernel_refuses_it(self):
+        text = self.written(ROBOT1).replace("Print Assumptions feasible.\n", "")
+        self.assertEqual(self.coqc(text).returncode, 0)
+        for name, pattern, edit in [
+                ("a forged box", r"(Box \(\d+ # \d+\) \d+ \(Six\s+)\(Six (?:[^()]|\(-\d+\))*\)", r"\1(Six 0 0 0 0 0 0)"),
+                ("forged densities", r"(\)%Z\s+\(Six )(?:-?\d+|\(-\d+\))", r"\g<1>1000000000000"),
+                ("boxes that end too early", r"Box \(4 # 4\)", "Box (3 # 4)"),
+                ("a tighter limit of tension", r"\(0\.05, 0\.5\)", "(0.05, 0.1)"),
+                ("a tighter limit of length", r"\(0\.1, 0\.55\)", "(0.1, 0.4)"),
+                ("another anchor", r"\(Vec 0 0\.22 0\)", "(Vec 0 0.12 0)"),
+                ("the machine of another case", r"\(Number 0\.35\)", "(Number 0.15)"),
+                ("a larger margin", "length_margin := 0;", "length_margin := 0.1;")]:
+            with self.subTest(name):
+                mutant = re.sub(pattern, edit, text, count=1)
+                self.assertNotEqual(mutant, text)
+                said = self.coqc(mutant)
+                self.assertNotEqual(said.returncode, 0)
+                self.assertIn("eq_refl", said.stderr)
+
+
+def turned(angles, v):
+    """Rz(phi) Ry(theta) Rz(sigma - phi) v."""
+    phi, theta, sigma = angles
+
+    def about_z(t, u):
+        return (math.cos(t) * u[0] - math.sin(t) * u[1], math.sin(t) * u[0] + math.cos(t) * u[1], u[2])
+    x, y, z = about_z(sigma - phi, v)
+    return about_z(phi, (math.cos(theta) * x + math.sin(theta) * z, y, math.cos(theta) * z - math.sin(theta) * x))
+
+
+def cross(u, v):
+    return (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+
+
+def inverse(matrix):
+    """By Gauss and Jordan."""
+    size = len(matrix)
+    rows = [list(row) + [float(i == j) for j in range(size)] for i, row in enumerate(matrix)]
+    for k in range(size):
+        pivot = max(range(k, size), key=lambda i: abs(rows[i][k]))
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows[k] = [x / rows[k][k] for x in rows[k]]
+        rows = [row if i == k else [x - row[k] * y for x, y in zip(row, rows[k])] for i, row in enumerate(rows)]
+    return [row[size:] for row in rows]
+
+
+def exact(x):
+    x = Fraction(x)
+    return f"({x.numerator} # {x.denominator})"
+
+
+def six(numbers):
+    return f"(Six {' '.join(f'({round(x * 2**SCALE)})' for x in numbers)})"
+
+
+class TheStatement(Proofs):
+    """Its lengths and tensions are those of tests/oracle, which are computed otherwise, and with 50 digits.
+
+    A cable's limits are set about its length at a pose, and about the least and largest tension there: Coq proves what
+    is stated when they are 1e-10 apart from these, and refuses it when one of them is overstated by 1e-12.
+    """
+
+    def box(self, problem, pose):
+        columns = []
+        for base, platform in zip(problem["robot"]["base_anchors_m"], problem["robot"]["platform_anchors_m"]):
+            b = [float(Fraction(x)) for x in platform]
+            arm = turned(pose[3:], [x - float(Fraction(y)) for x, y in zip(b, problem["load"]["point_m"])])
+            d = [p + x - float(Fraction(a)) for p, x, a in zip(pose, turned(pose[3:], b), base)]
+            columns.append((*d, *cross(arm, d)))
+        rows = inverse(list(zip(*columns)))
+        center = [float(Fraction(x)) for x in problem["load"]["wrench"]]
+        densities = [sum(x * w for x, w in zip(row, center)) for row in rows]
+        return f"[[Box 1 {SCALE} (Six {' '.join(map(six, rows))})%Z {six(densities)}%Z]]"
+
+    def goal(self, text, problem, line, answer, edit=None):
+        """A goal in Coq: whether the checker accepts these limits, of which one may be overstated."""
+        pairs = {"tension": [[Fraction(f) - Fraction(v), Fraction(f) + Fraction(v)]
+                             for f, v in zip(line["f0_N"], line["v_N"])],
+                 "length": [[Fraction(x), Fraction(x)] for x in line["length_m"]]}
+        for kind, limits in pairs.items():
+            for i, pair in enumerate(limits):
+                for side, sign in enumerate((-1, 1)):
+                    pair[side] += sign * (-OVERSTATED if (kind, i, side) == edit else ROOM)
+        cables = iter(zip(pairs["tension"], pairs["length"]))
+        text = re.sub(r"\(([^()]+), ([^()]+)\) \(([^()]+), ([^()]+)\)\)", lambda _: " ".join(
+            f"({exact(low)}, {exact(high)})" for low, high in next(cables)) + ")", text)
+        point = f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in line['pose'])}]"
+        return (f"Goal Fast.N.C.check {{| subject := {text}; path := [{point}; {point}]; tension_margin := 0;\n"
+                f"  length_margin := 0; bits := 60; boxes := {self.box(problem, line['pose'])} |}} = {answer}.\n"
+                "Proof. vm_compute. reflexivity. Qed.\n")
+
+    def test_it_is_of_the_poses_of_50_digits(self):
+        lines = [json.loads(line) for line in text_of(os.path.join(SOURCE, "tests/oracle/poses.jsonl")).splitlines()]
+        for robot, case in (("robot1", ROBOT1), ("robot2", SPHERE)):
+            text = self.written(case)
+            problem = self.certificate()["problem"]
+            head, machine = re.match(r"(.*?)Definition robot : machine := (.*?)\.\n\n", text, re.S).groups()
+            machine = re.sub(r"pose_position.*", "pose_position := Vec (Param 0) (Param 1) (Param 2);\n"
+                             "  pose_angles := TiltTorsion (Param 3) (Param 4) (Param 5) |}", machine, flags=re.S)
+            chosen = [line for line in lines if line["robot"] == robot and abs(float(line["det_J"])) > 1e-3][:POSES]
+            self.assertEqual(len(chosen), POSES)
+            places = [(kind, i, side) for kind in ("tension", "length") for i in range(6) for side in (0, 1)]
+            goals = [self.goal(machine, problem, line, "true") for line in chosen]
+            goals += [self.goal(machine, problem, line, "false", place)
+                      for k, line in enumerate(chosen) for place in places[k % 4::4]]
+            said = self.coqc(head + "".join(goals))
+            self.assertEqual(said.returncode, 0, said.stderr)
+
+
+if __name__ == "__main__":
+    main()
