@@ -19,7 +19,7 @@ SPHERE = os.path.join(CASES, "robot2-sphere-q1-q2.yaml")
 ROLL_PITCH_YAW = os.path.join(CASES, "robot1-roll-pitch-yaw.yaml")
 AXIOMS = {"sig_not_dec", "sig_forall_dec", "functional_extensionality_dep", "epsilon_statement", "classic"}
 POSES = 12          # of each robot
-SCALE = 30
+SCALE = 44
 ROOM = Fraction(1, 10**10)
 OVERSTATED = Fraction(1, 10**12)
 
