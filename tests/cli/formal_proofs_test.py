@@ -59,7 +59,8 @@ class WhatIsNotTrue(Proofs):
         text = self.written(ROBOT1).replace("Print Assumptions feasible.\n", "")
         self.assertEqual(self.coqc(text).returncode, 0)
         for name, pattern, edit in [
-                ("a forged box", r"(Box \(\d+ # \d+\) \d+ \(Six\s+)\(Six (?:[^()]|\(-\d+\))*\)", r"\1(Six 0 0 0 0 0 0)"),
+                ("a forged box", r"(Box \(\d+ # \d+\) \d+ \(Six\s+)\(Six (?:[^()]|\(-\d+\))*\)",
+                 r"\1(Six 0 0 0 0 0 0)"),
                 ("forged densities", r"(\)%Z\s+\(Six )(?:-?\d+|\(-\d+\))", r"\g<1>1000000000000"),
                 ("boxes that end too early", r"Box \(4 # 4\)", "Box (3 # 4)"),
                 ("a tighter limit of tension", r"\(0\.05, 0\.5\)", "(0.05, 0.1)"),
