@@ -299,6 +299,20 @@ std::vector<PairClearanceText> read_pair_clearances(const Field& field, const Un
   return result;
 }
 
+std::vector<ContactText> read_contacts(const Field& field, const Unit& length) {
+  std::vector<ContactText> result;
+  for (const Field& item : field.list("a list of contacts such as "
+                                      "{pair: [container, ground], at: [0, 0, 2.6], within: 0.3, depth: 0.01}")) {
+    const Map map = item.map({"pair", "at", "within", "depth"});
+    const std::vector<Field> ends = map.at("pair").list(2, "the names of two bodies");
+    result.push_back({{ends[0].text("the name of a body"), ends[1].text("the name of a body")},
+                      {read_point(map.at("at"), length), read_length(map.at("within"), length, true),
+                       read_length(map.at("depth"), length, true)}});
+  }
+  if (result.empty()) field.complain("got an empty list, expected one contact or more, or no 'contacts'");
+  return result;
+}
+
 // --- Anchors inside of bodies --------------------------------------------------------------------------------------
 
 /// Refuses a cable that would always touch a body, since all points as far from its anchor as its free end is long are
@@ -329,7 +343,7 @@ void refuse_anchors_inside(const BodiesText& bodies, const RobotText& robot) {
 
 CaseBodies read_bodies(const Field& field, const Units& units, const std::filesystem::path& folder,
                        const RobotText& robot) {
-  const Map map = field.map({"clearance", "cables", "platform", "obstacles", "pairs", "pair_clearances"});
+  const Map map = field.map({"clearance", "cables", "platform", "obstacles", "pairs", "pair_clearances", "contacts"});
   const Unit& length = units[Dimension::kLength];
   CaseBodies result;
   BodiesText& bodies = result.text;
@@ -340,6 +354,7 @@ CaseBodies read_bodies(const Field& field, const Units& units, const std::filesy
   if (cables) bodies.cables = read_cables(*cables, length);
   read_clearances(map, length, checked_classes(map, bodies, cables.has_value()), bodies);
   if (const auto list = map.find("pair_clearances")) bodies.pair_clearances_m = read_pair_clearances(*list, length);
+  if (const auto list = map.find("contacts")) bodies.contacts = read_contacts(*list, length);
   validate(bodies);
   refuse_anchors_inside(bodies, robot);
   return result;

@@ -49,6 +49,7 @@ std::string claim_of(Verdict verdict, const json& problem,
   if (problem["load"].contains("items")) claim += checker::kItemsClause;
   if (checked) claim += checker::bodies_clause(is_proved, *checked);
   if (has_meshes(problem)) claim += checker::kMeshClause;
+  if (checked && problem["bodies"].contains("contacts")) claim += checker::kContactZonesClause;
   return claim;
 }
 

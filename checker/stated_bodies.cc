@@ -99,6 +99,17 @@ std::string stated_bodies(const std::string& certificate) {
                           entry["pair"].at(1).dump(-1, ' ', true), metres(entry.at("clearance_m")));
     }
   }
+  if (bodies.contains("contacts")) {
+    for (const Json& entry : bodies["contacts"]) {
+      const Json& at = entry.at("at_m");
+      text += fmt::format(
+          "; {} and {} MAY TOUCH, up to {} deep, with the platform's origin within {} of ({:.6g}, "
+          "{:.6g}, {:.6g}) m",
+          entry.at("pair").at(0).dump(-1, ' ', true), entry["pair"].at(1).dump(-1, ' ', true),
+          metres(entry.at("depth_m")), metres(entry.at("within_m")), rounded(at.at(0)), rounded(at.at(1)),
+          rounded(at.at(2)));
+    }
+  }
   return text;
 }
 

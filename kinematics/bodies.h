@@ -50,7 +50,15 @@ struct HalfSpace {
 template <class S>
 using Obstacle = std::variant<ConvexBody<S>, HalfSpace<S>>;
 
-/// Two bodies that have to stay farther apart than `clearance`.
+/// Where a pair may touch: while the platform's origin is no farther than `within` from `at`, by less than `depth`.
+template <class S>
+struct ContactZone {
+  Vector3<S> at;  ///< in W [m]
+  S within;       ///< > 0 [m]
+  S depth;        ///< > 0 [m]
+};
+
+/// Two bodies that have to stay farther apart than `clearance`, but in zones of contact (problem/bodies.h).
 template <class S>
 struct CheckedPair {
   PairClass kind;
@@ -61,7 +69,18 @@ struct CheckedPair {
   /// point.
   bool shares_base = false;
   bool shares_platform = false;
+  std::vector<ContactZone<S>> zones = {};
 };
+
+/// What a pair has to be farther apart than [m].
+template <class S>
+struct RequiredDistance {
+  S at_most;   ///< it is not more than this: a pair that is farther apart than this is as the problem wants it
+  S at_least;  ///< and not less than this: a pair that isn't farther apart than this is not
+};
+/// With the platform's origin anywhere in p [m].
+template <class S>
+[[nodiscard]] RequiredDistance<S> required_distance(const CheckedPair<S>& pair, const Vector3<S>& p);
 
 template <class S>
 struct BodyModel {

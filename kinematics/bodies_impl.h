@@ -107,6 +107,19 @@ Vector3<S> PlacedMesh<S>::place(const std::array<double, 3>& f) const {
 }
 
 template <class S>
+RequiredDistance<S> required_distance(const CheckedPair<S>& pair, const Vector3<S>& p) {
+  RequiredDistance<S> result{pair.clearance, pair.clearance};
+  const auto lower_to = [](S& distance, const S& depth) { distance = -larger(S(-distance), depth); };
+  for (const ContactZone<S>& zone : pair.zones) {
+    S left = zone.within * zone.within;
+    for (int k = 0; k < 3; ++k) left = left - (p(k) - zone.at(k)) * (p(k) - zone.at(k));
+    if (lower_bound(left) >= 0) lower_to(result.at_most, zone.depth);
+    if (!(upper_bound(left) < 0)) lower_to(result.at_least, zone.depth);
+  }
+  return result;
+}
+
+template <class S>
 BodyModel<S> make_body_model(const Problem& problem) {
   using namespace bodies_detail;
   const BodiesText& text = *problem.bodies;
@@ -135,6 +148,10 @@ BodyModel<S> make_body_model(const Problem& problem) {
       const auto* platform = tolerances != nullptr ? &tolerances->platform_anchor_m : nullptr;
       checked.shares_base = is_one(problem.robot.base_anchors_m, base, pair.first, pair.second);
       checked.shares_platform = is_one(problem.robot.platform_anchors_m, platform, pair.first, pair.second);
+    }
+    for (const ContactZoneText& zone : pair.zones) {
+      checked.zones.push_back({vector<S>(zone.at_m), ScalarTraits<S>::from_decimal(zone.within_m),
+                               ScalarTraits<S>::from_decimal(zone.depth_m)});
     }
     model.pairs.push_back(std::move(checked));
   }

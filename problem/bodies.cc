@@ -261,6 +261,35 @@ using PairKey = std::tuple<PairClass, std::size_t, std::size_t>;
 
 PairKey key_of(const BodyPair& pair) { return {pair.kind, pair.first, pair.second}; }
 
+/// 'a' and 'b'.
+std::string seen(const std::array<std::string, 2>& names) {
+  return fmt::format("'{}' and '{}'", excerpt(names[0]), excerpt(names[1]));
+}
+
+/// The pair of these names. @throws FieldError for a pair that is none, or that is not checked
+BodyPair named_pair(const BodiesText& bodies, const std::map<std::string, NamedBody>& known, const std::string& where,
+                    const std::array<std::string, 2>& names) {
+  std::array<NamedBody, 2> ends;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const auto found = known.find(names[end]);
+    if (found == known.end()) {
+      throw FieldError(fmt::format("{}.pair[{}]", where, end), "'" + excerpt(names[end]) + "'",
+                       "expected the name of a body, or 'cable 1' to 'cable 6'");
+    }
+    ends[end] = found->second;
+  }
+  std::optional<BodyPair> pair = pair_of(ends[0], ends[1]);
+  if (!pair) {
+    throw FieldError(where + ".pair", seen(names),
+                     "expected two bodies that move against each other: of the platform, an obstacle, or cables");
+  }
+  if (!bodies.clearance_m[static_cast<std::size_t>(pair->kind)]) {
+    throw FieldError(where + ".pair", seen(names),
+                     fmt::format("expected a pair that is checked; the class '{}' is not", name(pair->kind)));
+  }
+  return *std::move(pair);
+}
+
 /// The clearances of single pairs. @throws FieldError for a pair that is none, that is not checked, or that is there
 /// twice
 std::map<PairKey, DecimalText> clearances_of_pairs(const BodiesText& bodies) {
@@ -269,29 +298,44 @@ std::map<PairKey, DecimalText> clearances_of_pairs(const BodiesText& bodies) {
   for (std::size_t k = 0; k < bodies.pair_clearances_m.size(); ++k) {
     const auto& [names, clearance] = bodies.pair_clearances_m[k];
     const std::string where = fmt::format("bodies.pair_clearances[{}]", k);
-    std::array<NamedBody, 2> ends;
-    for (std::size_t end = 0; end < 2; ++end) {
-      const auto found = known.find(names[end]);
-      if (found == known.end()) {
-        throw FieldError(fmt::format("{}.pair[{}]", where, end), "'" + excerpt(names[end]) + "'",
-                         "expected the name of a body, or 'cable 1' to 'cable 6'");
-      }
-      ends[end] = found->second;
-    }
-    const std::string seen = fmt::format("'{}' and '{}'", excerpt(names[0]), excerpt(names[1]));
-    const std::optional<BodyPair> pair = pair_of(ends[0], ends[1]);
-    if (!pair) {
-      throw FieldError(where + ".pair", seen,
-                       "expected two bodies that move against each other: of the platform, an obstacle, or cables");
-    }
-    if (!bodies.clearance_m[static_cast<std::size_t>(pair->kind)]) {
-      throw FieldError(where + ".pair", seen,
-                       fmt::format("expected a pair that is checked; the class '{}' is not", name(pair->kind)));
-    }
+    const BodyPair pair = named_pair(bodies, known, where, names);
     validate_not_negative(where + ".clearance", clearance, "clearance");
-    if (!result.emplace(key_of(*pair), clearance).second) {
-      throw FieldError(where + ".pair", seen + " twice", "expected one clearance for each pair");
+    if (!result.emplace(key_of(pair), clearance).second) {
+      throw FieldError(where + ".pair", seen(names) + " twice", "expected one clearance for each pair");
     }
+  }
+  return result;
+}
+
+/// The zones in which pairs may touch. @throws FieldError for a pair that is none, that is not checked or that may not
+/// touch, and for a zone that is none
+std::map<PairKey, std::vector<ContactZoneText>> zones_of_pairs(const BodiesText& bodies) {
+  const std::map<std::string, NamedBody> known = named_bodies(bodies);
+  std::map<PairKey, std::vector<ContactZoneText>> result;
+  if (bodies.contacts.size() > kMaxContacts) {
+    throw FieldError("bodies.contacts", fmt::format("{} contacts", bodies.contacts.size()),
+                     fmt::format("expected at most {}", kMaxContacts));
+  }
+  for (std::size_t k = 0; k < bodies.contacts.size(); ++k) {
+    const auto& [names, zone] = bodies.contacts[k];
+    const std::string where = fmt::format("bodies.contacts[{}]", k);
+    const BodyPair pair = named_pair(bodies, known, where, names);
+    const auto is_mesh = [](const BodyText& body) { return std::holds_alternative<MeshText>(body.shape); };
+    if (pair.kind != PairClass::kPlatformObstacles || is_mesh(bodies.platform[pair.first]) ||
+        is_mesh(bodies.obstacles[pair.second])) {
+      throw FieldError(where + ".pair", seen(names),
+                       "expected a body of the platform and an obstacle, neither of them a mesh");
+    }
+    validate_point(where + ".at", zone.at_m);
+    for (const auto& [key, length] : {std::pair("within", &zone.within_m), std::pair("depth", &zone.depth_m)}) {
+      const std::string here = fmt::format("{}.{}", where, key);
+      if (decimal_at(here, *length).sign() <= 0) throw FieldError(here, *length, "expected a length > 0");
+    }
+    std::vector<ContactZoneText>& zones = result[key_of(pair)];
+    if (std::ranges::find(zones, zone) != zones.end()) {
+      throw FieldError(where, "the same contact twice", "expected each contact once");
+    }
+    zones.push_back(zone);
   }
   return result;
 }
@@ -299,7 +343,8 @@ std::map<PairKey, DecimalText> clearances_of_pairs(const BodiesText& bodies) {
 /// Makes the list of pairs, in its order.
 class PairList {
  public:
-  explicit PairList(const BodiesText& bodies) : bodies_(bodies), of_pairs_(clearances_of_pairs(bodies)) {}
+  explicit PairList(const BodiesText& bodies)
+      : bodies_(bodies), of_pairs_(clearances_of_pairs(bodies)), zones_(zones_of_pairs(bodies)) {}
 
   std::vector<BodyPair> all() && {
     for (std::size_t i = 0; i < bodies_.platform.size(); ++i) {
@@ -338,11 +383,13 @@ class PairList {
       pair.clearance_m = *body->clearance_m;
     }
     if (const auto found = of_pairs_.find(key_of(pair)); found != of_pairs_.end()) pair.clearance_m = found->second;
+    if (const auto found = zones_.find(key_of(pair)); found != zones_.end()) pair.zones = found->second;
     pairs_.push_back(std::move(pair));
   }
 
   const BodiesText& bodies_;
   std::map<PairKey, DecimalText> of_pairs_;
+  std::map<PairKey, std::vector<ContactZoneText>> zones_;
   std::vector<BodyPair> pairs_;
 };
 
@@ -392,6 +439,7 @@ void validate(const BodiesText& bodies) {
     if (clearance) validate_not_negative(fmt::format("bodies.clearance.{}", name(kind)), *clearance, "clearance");
   }
   static_cast<void>(clearances_of_pairs(bodies));
+  static_cast<void>(zones_of_pairs(bodies));
 }
 
 bool are_meshes_read(const BodiesText& bodies) {
@@ -411,18 +459,21 @@ json to_json(const BodiesText& bodies) {
                  {"obstacles", list_to_json(bodies.obstacles)},
                  {"cables", {{"diameter_m", bodies.cables.diameter_m}, {"free_ends_m", bodies.cables.free_ends_m}}},
                  {"clearance_m", std::move(clearance)}};
-  if (bodies.pair_clearances_m.empty()) return result;
-  json& list = result["pair_clearances_m"] = json::array();
   for (const PairClearanceText& entry : bodies.pair_clearances_m) {
-    list.push_back({{"pair", entry.pair}, {"clearance_m", entry.clearance_m}});
+    result["pair_clearances_m"].push_back({{"pair", entry.pair}, {"clearance_m", entry.clearance_m}});
+  }
+  for (const auto& [pair, zone] : bodies.contacts) {
+    result["contacts"].push_back(
+        {{"pair", pair}, {"at_m", zone.at_m}, {"within_m", zone.within_m}, {"depth_m", zone.depth_m}});
   }
   return result;
 }
 
 BodiesText bodies_from_json(const JsonCursor& value) {
-  const bool has_pairs = value.contains("pair_clearances_m");
   std::vector<std::string> keys = {"platform", "obstacles", "cables", "clearance_m"};
-  if (has_pairs) keys.emplace_back("pair_clearances_m");
+  for (const char* optional : {"pair_clearances_m", "contacts"}) {
+    if (value.contains(optional)) keys.emplace_back(optional);
+  }
   value.expect_keys(keys);
   BodiesText bodies;
   for (const JsonCursor& body : value.at("platform").elements()) bodies.platform.push_back(read_body(body));
@@ -440,12 +491,22 @@ BodiesText bodies_from_json(const JsonCursor& value) {
     bodies.clearance_m[static_cast<std::size_t>(kind)] = clearance.at(name(kind)).text();
   }
   clearance.expect_keys(checked);
-  if (!has_pairs) return bodies;
-  for (const JsonCursor& entry : value.at("pair_clearances_m").elements()) {
-    entry.expect_keys({"pair", "clearance_m"});
-    bodies.pair_clearances_m.push_back({read_texts<2>(entry.at("pair")), entry.at("clearance_m").text()});
-  }
-  if (bodies.pair_clearances_m.empty()) value.at("pair_clearances_m").fail("at least one pair");
+  const auto read_entries = [&](const char* key, const std::vector<std::string>& entry_keys, const auto& add) {
+    if (!value.contains(key)) return;
+    const std::vector<JsonCursor> entries = value.at(key).elements();
+    if (entries.empty()) value.at(key).fail("at least one pair");
+    for (const JsonCursor& entry : entries) {
+      entry.expect_keys(entry_keys);
+      add(entry, read_texts<2>(entry.at("pair")));
+    }
+  };
+  read_entries("pair_clearances_m", {"pair", "clearance_m"}, [&](const JsonCursor& entry, auto pair) {
+    bodies.pair_clearances_m.push_back({std::move(pair), entry.at("clearance_m").text()});
+  });
+  read_entries("contacts", {"pair", "at_m", "within_m", "depth_m"}, [&](const JsonCursor& entry, auto pair) {
+    bodies.contacts.push_back(
+        {std::move(pair), {read_texts<3>(entry.at("at_m")), entry.at("within_m").text(), entry.at("depth_m").text()}});
+  });
   return bodies;
 }
 

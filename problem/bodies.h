@@ -88,6 +88,21 @@ struct PairClearanceText {
   bool operator==(const PairClearanceText&) const = default;
 };
 
+/// Where a body of the platform may touch an obstacle, such as a load the ground that it stands on: while the
+/// platform's origin is no farther than `within_m` from `at_m`, the two may overlap by less than `depth_m`.
+struct ContactZoneText {
+  PointText at_m;        ///< in W [m]
+  DecimalText within_m;  ///< > 0 [m]
+  DecimalText depth_m;   ///< > 0 [m]
+  bool operator==(const ContactZoneText&) const = default;
+};
+struct ContactText {
+  std::array<std::string, 2> pair;  ///< a body of the platform and an obstacle, in either order; neither is a mesh
+  ContactZoneText zone;
+  bool operator==(const ContactText&) const = default;
+};
+
+inline constexpr std::size_t kMaxContacts = 64;
 inline constexpr std::size_t kMaxBodies = 64;  ///< of the platform, and as many obstacles
 inline constexpr std::size_t kMaxHullPoints = 1000;
 
@@ -98,15 +113,19 @@ struct BodiesText {
   /// Of each PairClass the clearance of its pairs, >= 0 [m]; if there is none, the class is not checked.
   std::array<std::optional<DecimalText>, kPairClasses> clearance_m;
   std::vector<PairClearanceText> pair_clearances_m;  ///< of pairs that are checked, each at most once
+  std::vector<ContactText> contacts;                 ///< of pairs that are checked; at most kMaxContacts
   bool operator==(const BodiesText&) const = default;
 };
 
-/// Two bodies that have to be farther apart than the clearance.
+/// Two bodies that have to be farther apart than the clearance; or, while the platform's origin is in a zone, than
+/// minus its depth, minus the greatest where zones overlap. The distance of bodies that overlap is minus the length of
+/// the shortest translation of one of them after which they don't.
 struct BodyPair {
   PairClass kind = PairClass::kPlatformObstacles;
   std::size_t first = 0;   ///< index of a platform body (kPlatformObstacles) or of a cable
   std::size_t second = 0;  ///< index of an obstacle, a cable (> first) or a platform body
   DecimalText clearance_m;
+  std::vector<ContactZoneText> zones = {};
   bool operator==(const BodyPair&) const = default;
 };
 
@@ -122,15 +141,15 @@ struct BodyPair {
 /// "container / stack", "cable 3 / stack", "cable 2 / cable 5", "cable 3 / container".
 [[nodiscard]] std::string name(const BodiesText& bodies, const BodyPair& pair);
 
-/// Checks all that the types above promise, and that pairs with a clearance of their own exist and are checked. What is
-/// wrong with a body is named "bodies.obstacles[NAME].radius". @throws FieldError
+/// Checks all that the types above promise, and that pairs with a clearance or a zone of their own exist and are
+/// checked. What is wrong with a body is named "bodies.obstacles[NAME].radius". @throws FieldError
 void validate(const BodiesText& bodies);
 
 /// Whether each mesh of the bodies was read.
 [[nodiscard]] bool are_meshes_read(const BodiesText& bodies);
 
 /// The member `bodies` of a problem: "platform" and "obstacles", lists of bodies, "cables", "clearance_m", an object
-/// with a member for each class that is checked, and, unless there are none, "pair_clearances_m".
+/// with a member for each class that is checked, and, unless there are none, "pair_clearances_m" and "contacts".
 [[nodiscard]] nlohmann::json to_json(const BodiesText& bodies);
 /// Inverse of to_json, without validating. @throws FieldError
 [[nodiscard]] BodiesText bodies_from_json(const JsonCursor& value);

@@ -146,6 +146,23 @@ std::array<I, 3> BodyGaps<I, Slope>::vector(const CheckedPair<I>& pair, const Di
 }
 
 template <class I, class Slope>
+RequiredDistance<I> BodyGaps<I, Slope>::required(const CheckedPair<I>& pair, bool only_at_mid) const {
+  if (pair.zones.empty()) return {pair.clearance, pair.clearance};
+  Vector3<I> p;
+  for (int k = 0; k < 3; ++k) p(k) = only_at_mid ? box_.p_WP(k).at_mid : box_.p_WP(k).range;
+  return required_distance(pair, p);
+}
+
+template <class I, class Slope>
+I BodyGaps<I, Slope>::radii(const CheckedPair<I>& pair) const {
+  const I first = pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].radius
+                                                             : box_.bodies.cable_radius[pair.first];
+  if (half_space(box_.bodies, pair) != nullptr) return first;
+  return first + (pair.kind == PairClass::kCablesCables ? box_.bodies.cable_radius[pair.second]
+                                                        : second_hull(box_.bodies, pair).radius);
+}
+
+template <class I, class Slope>
 double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& direction) const {
   const bool in_platform = is_in_platform(pair, direction);
   const std::array<I, 3> u = vector(pair, direction);
@@ -189,7 +206,7 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& di
     second = is_moving ? dot(other, body.centre) - of_origin : dot(u, body.centre);
     radii = radii + body.reach;
   }
-  const I gap = (first - second) / euclidean_norm(u[0], u[1], u[2]) - radii - pair.clearance;
+  const I gap = (first - second) / euclidean_norm(u[0], u[1], u[2]) - radii - required(pair, false).at_most;
   return lower_bound(I(gap + ProofScalarTraits<I>::symmetric(lost)));
 }
 
@@ -203,20 +220,17 @@ GapBound<I, Slope> BodyGaps<I, Slope>::along(const CheckedPair<I>& pair, const D
 
   // The second body: constants, or two ends of a cable that move with the platform, too.
   std::vector<Projection> second;
-  I radii = pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].radius
-                                                       : box_.bodies.cable_radius[pair.first];
+  const I needed = radii(pair) + required(pair, false).at_most;
   if (half != nullptr) {
     second.push_back({Form(half->offset), Upper(0.0)});
   } else if (pair.kind == PairClass::kCablesCables) {
     const auto ends = cable(pair.second, turned_u, in_platform, end_shifts(pair, pair.second, in_platform));
     second.assign(ends.begin(), ends.end());
-    radii = radii + box_.bodies.cable_radius[pair.second];
   } else if (in_platform && pair.kind == PairClass::kPlatformObstacles) {
     const ConvexBody<I>& body = second_hull(box_.bodies, pair);
     for (const Vector3<I>& x : body.points) {
       second.push_back({dot(turned_u.other, x) - turned_u.of_origin, obstacle_shift(x)});
     }
-    radii = radii + body.radius;
   } else {
     const ConvexBody<I>& body = second_hull(box_.bodies, pair);
     std::optional<I> farthest;
@@ -225,13 +239,12 @@ GapBound<I, Slope> BodyGaps<I, Slope>::along(const CheckedPair<I>& pair, const D
       farthest = farthest ? larger(*farthest, at) : at;
     }
     second.push_back({Form(farthest.value()), Upper(0.0)});
-    radii = radii + body.radius;
   }
 
   std::optional<GapBound<I, Slope>> result;
   for (const Projection& a : first(pair, turned_u, in_platform)) {
     for (const Projection& b : second) {
-      Form value = (a.at - b.at) * inverse_norm - radii - pair.clearance;
+      Form value = (a.at - b.at) * inverse_norm - needed;
       value.tighten(box_.offset);
       const I disturbed = value.range + ProofScalarTraits<I>::symmetric(a.shift + b.shift);
       result = result ? GapBound<I, Slope>{lesser(result->value, value), lesser(result->disturbed, disturbed)}
@@ -303,23 +316,23 @@ I BodyGaps<I, Slope>::distance(const CheckedPair<I>& pair, const PointPair& shar
     return only_at_mid ? x.at_mid : x.range;
   };
   const Vector3<Form> a = mean(points(pair, true, shares.elements[0]), shares.first);
-  I radii = pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].radius
-                                                       : box_.bodies.cable_radius[pair.first];
+  const I near = radii(pair) + required(pair, only_at_mid).at_least;
   if (const auto* half = half_space(box_.bodies, pair)) {
     const Vector3<I>& n = half->normal;
     Form height = a(0) * n(0) + a(1) * n(1) + a(2) * n(2) - half->offset;
-    return known(height) / euclidean_norm(n(0), n(1), n(2)) - radii - pair.clearance;
+    return known(height) / euclidean_norm(n(0), n(1), n(2)) - near;
   }
-  radii = radii + (pair.kind == PairClass::kCablesCables ? box_.bodies.cable_radius[pair.second]
-                                                         : second_hull(box_.bodies, pair).radius);
   const Vector3<Form> b = mean(points(pair, false, shares.elements[1]), shares.second);
   Vector3<Form> apart;
   for (int k = 0; k < 3; ++k) apart(k) = a(k) - b(k);
-  return euclidean_norm(known(apart(0)), known(apart(1)), known(apart(2))) - radii - pair.clearance;
+  return euclidean_norm(known(apart(0)), known(apart(1)), known(apart(2))) - near;
 }
 
 /// With v_k the four vectors, Σ_k c_k v_k = 0 for c_0 = det(v_1 v_2 v_3), c_1 = −det(v_0 v_2 v_3) and so on. If all c_k
 /// have one sign, 0 is a convex combination of the v_k, and the same one of either body's points is a common point.
+/// |c_k| is then the distance of 0 from the plane of the three others times the length of the normal
+/// (v_b − v_a) × (v_c − v_a). If none of these distances is below r, differences of the bodies' points fill a ball of
+/// radius r about 0: the two can't be told apart by a shorter translation than r and both radii together.
 template <class I, class Slope>
 bool BodyGaps<I, Slope>::meet(const CheckedPair<I>& pair, const std::array<PointPair, 4>& shares) const {
   const std::vector<Vector3<Form>> first = points(pair, true, {}), second = points(pair, false, {});
@@ -331,6 +344,8 @@ bool BodyGaps<I, Slope>::meet(const CheckedPair<I>& pair, const std::array<Point
       v[n](k).tighten(box_.offset);
     }
   }
+  const I deep = -(radii(pair) + required(pair, false).at_least);
+  const bool may_overlap = !(upper_bound(deep) <= 0);
   int positive = 0, negative = 0;
   for (std::size_t n = 0; n < 4; ++n) {
     const Vector3<Form>&a = v[n == 0 ? 1 : 0], &b = v[n <= 1 ? 2 : 1], &c = v[n <= 2 ? 3 : 2];
@@ -340,6 +355,16 @@ bool BodyGaps<I, Slope>::meet(const CheckedPair<I>& pair, const std::array<Point
     const I share = n % 2 == 0 ? determinant.range : I(-determinant.range);
     positive += certainly_positive(share) ? 1 : 0;
     negative += certainly_positive(I(-share)) ? 1 : 0;
+    if (!may_overlap) continue;
+    Vector3<I> to_b, to_c;
+    for (int k = 0; k < 3; ++k) {
+      to_b(k) = (b(k) - a(k)).range;
+      to_c(k) = (c(k) - a(k)).range;
+    }
+    const I normal = euclidean_norm(to_b(1) * to_c(2) - to_b(2) * to_c(1), to_b(2) * to_c(0) - to_b(0) * to_c(2),
+                                    to_b(0) * to_c(1) - to_b(1) * to_c(0));
+    const I least = deep * normal;
+    if (!certainly_positive(I(share - least)) && !certainly_positive(I(-share - least))) return false;
   }
   return positive == 4 || negative == 4;
 }

@@ -8,8 +8,9 @@
 // axes of the world
 //   u·(p + R x) = u·p + (Rᵀu)·x,   the ends of cable i: u·a_i and u·p + (Rᵀu)·b_i,
 // and in those of the platform its points stand still, a point x of an obstacle is at (R u)·(x − p), and the ends of
-// cable i are (R u)·(a_i − p) and u·b_i. A cable's points at the shares λ of its length lie between them. Proofs:
-// docs/theory.md, "Bodies".
+// cable i are (R u)·(a_i − p) and u·b_i. A cable's points at the shares λ of its length lie between them. All of this
+// holds of bodies that overlap, too: their distance is minus the length of the shortest translation of one of them after
+// which they don't. Proofs: docs/theory.md, "Clearance".
 #pragma once
 
 #include <array>
@@ -90,7 +91,7 @@ struct BodiesBox {
   const DeviationBounds<I>* deviations = nullptr;
 };
 
-/// A lower bound of how much farther than its clearance a pair is apart [m].
+/// A lower bound of how much farther than required (required_distance()) a pair is apart [m].
 template <class I, class Slope = I>
 struct GapBound {
   SlopeForm<I, Slope> value;  ///< of the undisturbed machine
@@ -109,8 +110,8 @@ class BodyGaps {
   /// for cables else.
   [[nodiscard]] bool have_cables_length() const { return have_length_; }
 
-  /// Claim: for every t in T and every deviation the bodies of the pair are farther apart than its clearance by at
-  /// least `disturbed`.
+  /// Claim: for every t in T and every deviation the bodies of the pair are farther apart than required by at least
+  /// `disturbed`.
   /// @pre neither body is a mesh
   [[nodiscard]] GapBound<I, Slope> along(const CheckedPair<I>& pair, const Direction& direction) const;
   /// What a bound is about: all of T, or m, of all deviations or of the undisturbed machine.
@@ -129,15 +130,16 @@ class BodyGaps {
   /// apart.
   [[nodiscard]] double rough(const CheckedPair<I>& pair, const Direction& direction) const;
 
-  /// Contains how much farther than the pair's clearance two of its bodies' points are apart, on the undisturbed
-  /// machine, at every t of T; `only_at_mid`: at m. Where it is not positive, the pair is not apart by more than its
-  /// clearance there. @pre as many shares as either body has points
+  /// Contains how much farther than the least that may be required of the pair two of its bodies' points are apart, on
+  /// the undisturbed machine, at every t of T; `only_at_mid`: at m. Where it is not positive, the pair is not farther
+  /// apart than required there. @pre as many shares as either body has points
   [[nodiscard]] I distance(const CheckedPair<I>& pair, const PointPair& points, bool only_at_mid) const;
   /// Claim, if true: at m, on the undisturbed machine, this point of one body is inside of the other, a watertight
   /// mesh. @pre points.inside
   [[nodiscard]] bool is_inside_at_mid(const CheckedPair<I>& pair, const PointPair& points) const;
-  /// Claim, if true: the two bodies of the pair, of the undisturbed machine, have a common point at every t of T. The
-  /// vectors from the second to the first of these four pairs of points are around 0. @pre neither is a half-space, and
+  /// Claim, if true: the two bodies of the pair, of the undisturbed machine, have a common point at every t of T and are
+  /// nowhere farther apart than required. The vectors from the second to the first of these four pairs of points are
+  /// around 0, and around a ball about it where bodies may overlap. @pre neither is a half-space, and
   /// neither a mesh
   [[nodiscard]] bool meet(const CheckedPair<I>& pair, const std::array<PointPair, 4>& points) const;
 
@@ -175,6 +177,10 @@ class BodyGaps {
   /// The sum of shares times points.
   [[nodiscard]] static Vector3<Form> mean(const std::vector<Vector3<Form>>& points,
                                           const std::vector<std::int64_t>& shares);
+  /// Of the pair on T, or at m.
+  [[nodiscard]] RequiredDistance<I> required(const CheckedPair<I>& pair, bool only_at_mid) const;
+  /// The sum of both bodies' radii.
+  [[nodiscard]] I radii(const CheckedPair<I>& pair) const;
   [[nodiscard]] const PlacedMesh<I>* mesh(const CheckedPair<I>& pair, bool is_first) const;
   class MeshGaps;
   [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair, bool first_is_solid) const;

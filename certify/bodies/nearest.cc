@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "certify/bodies/nearest_mesh.h"
@@ -124,6 +125,62 @@ NearestPoints nearest_points(std::span<const Point> first, std::span<const Point
   return result;
 }
 
+// ---- Overlap --------------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// How far the first has to be moved along a unit vector until a plane across it is between the two.
+double overlap_along(std::span<const Point> first, std::span<const Point> second, const Point& u) {
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -least;
+  for (const Point& a : first) least = std::min(least, u.dot(a));
+  for (const Point& b : second) greatest = std::max(greatest, u.dot(b));
+  return greatest - least;
+}
+
+}  // namespace
+
+Overlap overlap(std::span<const Point> first, std::span<const Point> second) {
+  constexpr int kDirections = 600;
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  std::vector<Overlap> tried;
+  const auto consider = [&](const Point& u) { tried.push_back({overlap_along(first, second, u), u}); };
+  for (int k = 0; k < kDirections; ++k) {  // points that are spread over a sphere
+    const double z = 1 - (2 * k + 1.0) / kDirections;
+    const double across = std::sqrt(1 - z * z);
+    consider({across * std::cos(golden * k), across * std::sin(golden * k), z});
+  }
+  for (int k = 0; k < 3; ++k) {  // across faces of boxes that stand straight
+    consider(Point::Unit(k));
+    consider(-Point::Unit(k));
+  }
+  constexpr std::size_t kStarts = 6;
+  std::ranges::partial_sort(tried, tried.begin() + kStarts, {}, &Overlap::depth);
+  Overlap best = tried.front();
+  for (std::size_t start = 0; start < kStarts; ++start) {
+    auto [least, u] = tried[start];
+    for (double step = 0.1; step > 1e-7; step /= 2) {
+      for (int turns = 0; turns < 8; ++turns) {
+        bool is_better = false;
+        const Point across = u.unitOrthogonal();
+        const Point other = u.cross(across);
+        for (const Point& aside : {across, Point(-across), other, Point(-other)}) {
+          const Point next = (u + step * aside).normalized();
+          const double here = overlap_along(first, second, next);
+          if (!(here < least)) continue;
+          least = here;
+          u = next;
+          is_better = true;
+        }
+        if (!is_better) break;
+      }
+    }
+    if (least < best.depth) best = {least, u};
+  }
+  best.depth = std::max(best.depth, 0.0);
+  return best;
+}
+
 // ---- Pairs of a problem ---------------------------------------------------------------------------------------------
 
 namespace {
@@ -197,7 +254,7 @@ BodySampler::BodySampler(const Problem& problem) : bodies_(make_body_model<doubl
 /// Of a half-space no shares, and `apart` along its normal, whose height it is.
 struct BodySampler::Found {
   NearestPoints nearest;
-  double needed = 0;  ///< radii and clearance
+  double needed = 0;  ///< radii, and how far the pair has to be apart here
   bool is_half_space = false;
   std::array<std::vector<Point>, 2> points;                   ///< of either body; of neither a half-space nor a mesh
   std::array<std::optional<std::uint32_t>, 2> elements = {};  ///< of meshes
@@ -264,8 +321,9 @@ BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
   const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
   Found found;
-  found.needed = pair.clearance + (pair.kind == PairClass::kPlatformObstacles ? bodies_.platform[pair.first].radius
-                                                                              : bodies_.cable_radius[pair.first]);
+  found.needed = required_distance(pair, pose.p).at_most + (pair.kind == PairClass::kPlatformObstacles
+                                                                ? bodies_.platform[pair.first].radius
+                                                                : bodies_.cable_radius[pair.first]);
   if (const auto* half = half_space(pair)) {
     const Point normal = half->normal.normalized();
     std::vector<Point> points = bodies[0].points;
@@ -291,6 +349,11 @@ BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose
   if (bodies[0].mesh == nullptr && bodies[1].mesh == nullptr) {
     found.nearest = nearest_points(bodies[0].points, bodies[1].points);
     found.points = {bodies[0].points, bodies[1].points};
+    if (!pair.zones.empty() && !(found.nearest.distance > 0)) {
+      const Overlap deep = overlap(bodies[0].points, bodies[1].points);
+      found.nearest.distance = -deep.depth;
+      found.nearest.apart = deep.along;
+    }
     return found;
   }
   NearestElements nearest = nearest_elements(bodies[0], bodies[1]);
@@ -343,7 +406,7 @@ std::optional<Direction> BodySampler::direction(const Model<double>& model, cons
   const Found found = find(model, pose, n);
   if (found.is_half_space) return Direction{};
   const CheckedPair<double>& pair = bodies_.pairs[n];
-  if (!(found.nearest.distance > 0)) return std::nullopt;
+  if (!(found.nearest.distance > 0) && pair.zones.empty()) return std::nullopt;
   Point along = found.nearest.apart;
   const bool in_platform = is_best_in_platform(pair) || (pair.kind == PairClass::kPlatformObstacles &&
                                                          is_better_in_platform(pair, along, pose, around));
@@ -503,9 +566,9 @@ double depth(const FourVertices& v, Point& outward) {
   return least;
 }
 
-/// Vertices of the difference of two hulls with 0 well inside of their own hull, if such are found: from four far ones,
-/// again and again one is replaced by the farthest beyond the face that is nearest to 0.
-std::optional<FourVertices> around_zero(std::span<const Point> first, std::span<const Point> second) {
+/// Vertices of the difference of two hulls with a ball about 0 of this radius well inside of their own hull, if such are
+/// found: from four far ones, again and again one is replaced by the farthest beyond the face that is nearest to 0.
+std::optional<FourVertices> around_zero(std::span<const Point> first, std::span<const Point> second, double radius) {
   constexpr int kMostSteps = 16;
   const auto beyond = [&](const Point& along) {
     const std::size_t i = farthest(first, along), j = farthest(second, -along);
@@ -532,7 +595,7 @@ std::optional<FourVertices> around_zero(std::span<const Point> first, std::span<
       }
       if (!(deepest > reached)) break;
     }
-    if (deepest > 0) return best;
+    if (deepest > radius) return best;
   }
   return std::nullopt;
 }
@@ -555,7 +618,7 @@ std::optional<BodySampler::Touching> BodySampler::touching(const Model<double>& 
   result.nearest.second = rounded_shares(found.nearest.second);
   const auto& [first, second] = found.points;
   if (found.nearest.distance > kMeeting || first.size() * second.size() < 4) return result;
-  if (const auto vertices = around_zero(first, second)) {
+  if (const auto vertices = around_zero(first, second, std::max(0.0, -found.needed))) {
     auto& around = result.around.emplace();
     for (std::size_t k = 0; k < 4; ++k) {
       around[k] = {one_of(first.size(), (*vertices)[k].first), one_of(second.size(), (*vertices)[k].second)};
@@ -597,7 +660,7 @@ double BodySampler::lost(const Model<double>& model, const RigidPose& pose, std:
       nearest += found.nearest.first[k] * body.points[k];
     }
     // What is nearest to it on the obstacle may be nearer to the platform's origin.
-    return of.position + of.turn * std::max(0.0, nearest.norm() - found.nearest.distance);
+    return of.position + of.turn * std::max(0.0, nearest.norm() - std::abs(found.nearest.distance));
   }
   std::array<double, 2> moved{0, 0};  // in W, in P
   const auto add_cable = [&](std::size_t i, const std::vector<double>& shares) {
@@ -635,7 +698,7 @@ bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Ca
   const double most = most_lost(model, pose);
   for (std::size_t n = 0; n < bodies_.pairs.size(); ++n) {
     std::optional<Carried::Gap>& last = carried.pairs[n];
-    if (last) {
+    if (last && bodies_.pairs[n].zones.empty()) {  // what is required of others changes
       const double bodies_moving = bodies_.pairs[n].kind == PairClass::kCablesCables ? 2 : 1;
       const double moved =
           bodies_moving * ((pose.p - last->pose.p).norm() + pose.q.angularDistance(last->pose.q) * reach_);

@@ -22,6 +22,13 @@ struct NearestPoints {
 [[nodiscard]] NearestPoints nearest_points(std::span<const Vector3<double>> first,
                                            std::span<const Vector3<double>> second);
 
+/// About how deep two hulls that meet are in each other.
+struct Overlap {
+  double depth = 0;                ///< the least along any direction, sought among many and then around the best [m]
+  Vector3<double> along{0, 0, 1};  ///< the unit vector that moves the first out of the second by it
+};
+[[nodiscard]] Overlap overlap(std::span<const Vector3<double>> first, std::span<const Vector3<double>> second);
+
 struct BodyInFrame;
 
 /// The bodies of a problem in doubles.
@@ -32,13 +39,14 @@ class BodySampler {
   [[nodiscard]] const BodyModel<double>& bodies() const { return bodies_; }
   /// Whether elements of a mesh have to be told apart one by one.
   [[nodiscard]] bool needs_list(std::size_t pair) const;
-  /// How much farther than its clearance a pair is apart at a pose [m]; where hulls meet, minus radii and clearance;
-  /// where a part of one body is inside of the other, a watertight mesh, minus how far surfaces are apart as well.
+  /// How much farther than required (required_distance()) a pair is apart at a pose [m]; where hulls meet, minus radii
+  /// and clearance, unless they may meet somewhere; where a part of one body is inside of the other, a watertight mesh, minus how far surfaces are apart as well.
   [[nodiscard]] double gap(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
   /// gap() less what deviations within the tolerances take of it, no more than that: a pair without room can't be
   /// proved to be clear.
   [[nodiscard]] double room(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
-  /// Along which a pair is farthest apart at a pose, with components up to `largest`; nothing where hulls meet.
+  /// Along which a pair is farthest apart at a pose, with components up to `largest`; nothing where hulls meet that may
+  /// not meet anywhere.
   [[nodiscard]] std::optional<Direction> direction(const Model<double>& model, const RigidPose& pose, std::size_t pair,
                                                    int largest = Direction::kLargest,
                                                    std::span<const RigidPose> around = {}) const;
@@ -60,7 +68,7 @@ class BodySampler {
     PointPair nearest;                               ///< its nearest points
     std::optional<std::array<PointPair, 4>> around;  ///< pairs of points, the vectors between which are around 0
   };
-  /// Nothing where the pair is farther apart than its clearance.
+  /// Nothing where the pair is farther apart than required.
   [[nodiscard]] std::optional<Touching> touching(const Model<double>& model, const RigidPose& pose,
                                                  std::size_t pair) const;
 

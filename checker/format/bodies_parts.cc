@@ -10,6 +10,7 @@ namespace {
 constexpr std::size_t kMaxBodies = 64;        ///< of the platform, and as many obstacles
 constexpr std::size_t kMaxHullPoints = 1000;  ///< bounds the work of a box, as kMaxBodies does
 constexpr std::size_t kMaxBodyName = 120;     ///< characters
+constexpr std::size_t kMaxContacts = 64;
 constexpr std::size_t kMaxDirections = 10'000'000;
 constexpr int kMaxComponent = 32767;   ///< of a direction
 constexpr std::size_t kMaxList = 256;  ///< directions of a pair with a mesh
@@ -137,12 +138,15 @@ class BodiesReader {
     json.object(
         "platform", list(false, bodies_.platform, platform_), "obstacles", list(true, bodies_.obstacles, obstacles_),
         "cables", [&](const Cursor& cables) { read_cables(cables, bodies_.cables); }, "clearance_m", read_classes,
-        "pair_clearances_m?", [&](const Cursor& pairs) { read_pair_clearances(pairs); });
+        "pair_clearances_m?", [&](const Cursor& pairs) { read_pair_clearances(pairs); }, "contacts?",
+        [&](const Cursor& contacts) { read_contacts(contacts); });
     make_pairs();
-    if (own_.empty()) return;
-    const Cursor pair_clearances = json["pair_clearances_m"];
     for (std::size_t k = 0; k < own_.size(); ++k) {
-      pair_clearances.at(k).require(own_[k].is_used, "two bodies that are a checked pair");
+      json["pair_clearances_m"].at(k).require(own_[k].is_used, "two bodies that are a checked pair");
+    }
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      json["contacts"].at(k).require(contacts_[k].is_used,
+                                     "a body of the platform and an obstacle, no meshes, that are a checked pair");
     }
   }
 
@@ -162,6 +166,29 @@ class BodiesReader {
       const bool is_taken = std::ranges::find(own_, own.names, &OwnClearance::names) != own_.end();
       here["pair"].require(!is_taken, "a pair that is not stated before");
       own_.push_back(std::move(own));
+    });
+  }
+
+  struct Contact {
+    std::array<std::string, 2> names;  ///< in order
+    ContactZone zone;
+    bool is_used = false;
+  };
+
+  void read_contacts(const Cursor& json) {
+    json.require(json.size() > 0 && json.size() <= kMaxContacts, "1 to 64 contacts, or no such key");
+    const auto positive = [](mpq_class& x) {
+      return [&x](const Cursor& here) {
+        taut::checker::read(here, x);
+        here.require(x > 0, "a decimal > 0");
+      };
+    };
+    json.elements([&](const Cursor& here, std::size_t) {
+      Contact contact;
+      here.object("pair", contact.names, "at_m", contact.zone.at, "within_m", positive(contact.zone.within), "depth_m",
+                  positive(contact.zone.depth));
+      std::ranges::sort(contact.names);
+      contacts_.push_back(std::move(contact));
     });
   }
 
@@ -197,7 +224,13 @@ class BodiesReader {
       own->is_used = true;
       clearance = own->clearance;
     }
-    bodies_.pairs.push_back({kind, i, j, clearance, first.name + " / " + second.name});
+    CheckedPair pair{kind, i, j, clearance, first.name + " / " + second.name};
+    for (Contact& contact : contacts_) {
+      if (contact.names != names || kind != PairKind::kPlatformObstacle || bodies_.has_mesh(pair)) continue;
+      contact.is_used = true;
+      pair.zones.push_back(contact.zone);
+    }
+    bodies_.pairs.push_back(std::move(pair));
   }
 
   Bodies& bodies_;
@@ -205,6 +238,7 @@ class BodiesReader {
   std::vector<BodyLabel> platform_, obstacles_;
   std::array<std::optional<mpq_class>, 4> classes_;  ///< by PairKind
   std::vector<OwnClearance> own_;
+  std::vector<Contact> contacts_;
 };
 
 std::size_t points_of(const RigidBody& body) {

@@ -54,6 +54,13 @@ inline constexpr const char* kMeshClause =
     "hangs together by edges has two sides, the points inside of it are part of the body, too: those about which the "
     "winding number of such a part is not 0. Else there is no inside.";
 
+/// Follows all others, where the problem states contacts.
+inline constexpr const char* kContactZonesClause =
+    " While the origin of the platform, of the machine as the problem states it, is within the stated distance of the "
+    "place of a contact of the problem, minus the contact's depth takes the place of the clearance of its pair, minus "
+    "the greatest one where several contacts of the pair apply. The distance of two bodies that overlap is minus the "
+    "length of the shortest translation of one of them after which they do not.";
+
 /// The classes of pairs, in the order in which certificates count them.
 inline constexpr std::array kPairClassNames = {"platform-obstacles", "cables-obstacles", "cables-cables",
                                                "cables-platform"};

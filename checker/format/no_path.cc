@@ -188,6 +188,7 @@ std::string no_path_claim(const Problem& problem) {
   std::string claim = kNoPathClaim;
   if (!problem.items.empty()) claim += kItemsClause;
   if (problem.bodies) claim += no_path_bodies_clause(problem.bodies->checks);
+  if (problem.bodies && problem.bodies->has_zones()) claim += kContactZonesClause;
   return claim;
 }
 

@@ -218,6 +218,7 @@ class Reader {
     if (result_.verdict != Verdict::kUndecided && result_.problem.bodies) {
       claim += bodies_clause(result_.verdict == Verdict::kProved, result_.problem.bodies->checks);
       if (result_.problem.bodies->has_meshes()) claim += kMeshClause;
+      if (result_.problem.bodies->has_zones()) claim += kContactZonesClause;
     }
     exactly(claim, "the text that belongs to the verdict")(top_["claim"]);
   }

@@ -44,6 +44,10 @@ PlacedBodies::PlacedBodies(const Problem& problem) {
   for (const CheckedPair& pair : bodies.pairs) {
     pairs.push_back(pair);
     clearance.emplace_back(pair.clearance);
+    std::vector<PlacedZone>& placed_zones = zones.emplace_back();
+    for (const ContactZone& zone : pair.zones) {
+      placed_zones.push_back({balls(zone.at), Ball(zone.within), Ball(zone.depth)});
+    }
   }
   const auto& tolerances = problem.tolerances;
   for (std::size_t i = 0; i < kCables; ++i) {
@@ -56,6 +60,29 @@ PlacedBodies::PlacedBodies(const Problem& problem) {
                           (!tolerances || tolerances->platform_anchors[i] == tolerances->platform_anchors[j])};
     }
   }
+}
+
+namespace {
+
+/// within - |p - at|: the platform's origin is in the zone where this is not negative.
+Ball depth_in(const PlacedZone& zone, const Vector3<Ball>& p) { return zone.within - length_range(p - zone.at); }
+
+}  // namespace
+
+Ball PlacedBodies::required_at_most(std::size_t k, const Vector3<Ball>& p) const {
+  Ball result = clearance[k];
+  for (const PlacedZone& zone : zones[k]) {
+    if (certainly_nonnegative(depth_in(zone, p))) result = smaller(result, -lowest(zone.depth));
+  }
+  return result;
+}
+
+Ball PlacedBodies::required_at_least(std::size_t k, const Vector3<Ball>& p) const {
+  Ball result = clearance[k];
+  for (const PlacedZone& zone : zones[k]) {
+    if (!certainly_negative(depth_in(zone, p))) result = smaller(result, -highest(zone.depth));
+  }
+  return result;
 }
 
 }  // namespace taut::checker

@@ -36,6 +36,12 @@ struct PlacedHalfSpace {
   Ball offset;
 };
 
+struct PlacedZone {
+  Vector3<Ball> at;
+  Ball within;
+  Ball depth;
+};
+
 struct PlacedBodies {
   /// Computes at the working precision. @throws Undefined where a rotation has no value, and for a mesh that nobody
   /// read.
@@ -54,12 +60,18 @@ struct PlacedBodies {
     return body != nullptr && body->mesh ? &*body->mesh : nullptr;
   }
 
+  /// What the bodies of pair k have to be farther apart than, the platform's origin being in p, is not more than the
+  /// one and not less than the other [m].
+  [[nodiscard]] Ball required_at_most(std::size_t k, const Vector3<Ball>& p) const;
+  [[nodiscard]] Ball required_at_least(std::size_t k, const Vector3<Ball>& p) const;
+
   std::vector<PlacedHull> platform;
   std::vector<std::variant<PlacedHull, PlacedHalfSpace>> obstacles;
   std::array<Ball, kCables> cable_radius;              ///< [m]
   std::array<std::array<Ball, 2>, kCables> free_ends;  ///< at base and platform [m]
   std::vector<CheckedPair> pairs;
-  std::vector<Ball> clearance;  ///< of each pair [m]
+  std::vector<Ball> clearance;                 ///< of each pair [m]
+  std::vector<std::vector<PlacedZone>> zones;  ///< of each pair
   /// Whether two cables have one anchor: their base anchors (0) or their platform anchors (1) are stated at the same
   /// place and with the same tolerance.
   std::array<std::array<std::array<bool, 2>, kCables>, kCables> shares{};

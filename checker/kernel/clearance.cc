@@ -52,7 +52,8 @@ class Clearances {
     for (std::size_t k = 0; k < apart_.size(); ++k) {
       const CheckedPair& pair = bodies_.pairs[k];
       const bool has_mesh = bodies_.mesh(pair, true) != nullptr || bodies_.mesh(pair, false) != nullptr;
-      result.push_back(has_mesh ? margin_of_mesh(k) : lowest(distance(k) - bodies_.clearance[k]));
+      result.push_back(has_mesh ? margin_of_mesh(k)
+                                : lowest(distance(k) - bodies_.required_at_most(k, range(geometry_.pose.p))));
     }
     return result;
   }
@@ -60,7 +61,7 @@ class Clearances {
  private:
   /// (1), of pair k.
   [[nodiscard]] Ball distance(std::size_t k) {
-    const auto& [kind, first, second, clearance, name] = bodies_.pairs[k];
+    const auto& [kind, first, second, clearance, name, zones] = bodies_.pairs[k];
     if (kind == PairKind::kCableCable) return between_cables(first, second, along(k, std::nullopt));
     if (kind == PairKind::kCablePlatform) {
       Along& u = along(k, Axes::kPlatform);
@@ -378,11 +379,11 @@ std::vector<Ball> clearance_margins(const Machine& machine, const Geometry& geom
 Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t pair, const ContactWeights& weights,
                    const ContactElements& elements) {
   const PlacedBodies& bodies = machine.bodies.value();
-  const auto& [kind, first, second, clearance, name] = bodies.pairs.at(pair);
+  const auto& [kind, first, second, clearance, name, zones] = bodies.pairs.at(pair);
   const bool is_platform = kind == PairKind::kPlatformObstacle;
   const ContactPoint a = is_platform ? of_platform(bodies.platform[first], geometry, weights[0], elements[0])
                                      : of_cable(machine, geometry, first, weights[0]);
-  const Ball allowed = a.radius + bodies.clearance[pair];
+  const Ball allowed = a.radius + bodies.required_at_least(pair, range(geometry.pose.p));
   const auto from = [&](const ContactPoint& b) { return allowed + b.radius - length_range(a.at - b.at); };
   if (kind == PairKind::kCableCable) return from(of_cable(machine, geometry, second, weights[1]));
   if (kind == PairKind::kCablePlatform) {

@@ -246,11 +246,24 @@ CellForm determinant(const Vector3<CellForm>& a, const Vector3<CellForm>& b, con
   return dot(a, cross(b, c));
 }
 
-/// Whether 0 is certainly in the hull of these, everywhere.
-bool is_around_zero(const std::array<Vector3<CellForm>, 4>& v) {
-  const std::array<Ball, 4> shares = {determinant(v[1], v[2], v[3]).range(), -determinant(v[0], v[2], v[3]).range(),
-                                      determinant(v[0], v[1], v[3]).range(), -determinant(v[0], v[1], v[2]).range()};
-  return std::ranges::all_of(shares, certainly_positive) || std::ranges::all_of(shares, certainly_negative);
+/// Whether a ball about 0 with this radius is certainly in the hull of these, everywhere; for no radius, whether 0 is.
+bool is_around_zero(const std::array<Vector3<CellForm>, 4>& v, const std::optional<Ball>& radius) {
+  using Face = std::array<std::size_t, 3>;
+  constexpr std::array<Face, 4> kFaces = {Face{1, 2, 3}, Face{0, 3, 2}, Face{0, 1, 3}, Face{0, 2, 1}};
+  std::array<Ball, 4> shares, faces;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& [a, b, c] = kFaces[k];
+    shares[k] = determinant(v[a], v[b], v[c]).range();
+    if (radius) faces[k] = *radius * length_range(range(cross(v[b] - v[a], v[c] - v[a])));
+  }
+  const auto is_inside = [&](int side) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Ball share = side > 0 ? shares[k] : -shares[k];
+      if (!certainly_positive(share) || (radius && !certainly_nonnegative(share - faces[k]))) return false;
+    }
+    return true;
+  };
+  return is_inside(1) || is_inside(-1);
 }
 
 }  // namespace
@@ -292,7 +305,7 @@ bool OutsideProof::holds(const ContactReason& reason) const {
   const PlacedBodies& bodies = machine_.bodies.value();
   const CheckedPair& pair = bodies.pairs.at(reason.pair);
   const bool is_platform = pair.kind == PairKind::kPlatformObstacle;
-  Ball allowed = bodies.clearance[reason.pair] +
+  Ball allowed = bodies.required_at_least(reason.pair, range(p_)) +
                  (is_platform ? bodies.platform[pair.first].radius : bodies.cable_radius[pair.first]);
   if (is_platform || pair.kind == PairKind::kCableObstacle) {
     const auto& obstacle = bodies.obstacles[pair.second];
@@ -309,8 +322,12 @@ bool OutsideProof::holds(const ContactReason& reason) const {
   const auto apart = [&](std::size_t k) {
     return first_point(pair, reason.points.at(k)) - second_point(pair, reason.points.at(k));
   };
-  if (reason.points.size() == 4) return is_around_zero({apart(0), apart(1), apart(2), apart(3)});
-  return certainly_nonnegative(allowed * allowed - squared_norm(apart(0)).range());
+  const bool is_met_at_zero = certainly_nonnegative(allowed);
+  if (reason.points.size() == 4) {
+    return is_around_zero({apart(0), apart(1), apart(2), apart(3)},
+                          is_met_at_zero ? std::nullopt : std::optional(-allowed));
+  }
+  return is_met_at_zero && certainly_nonnegative(allowed * allowed - squared_norm(apart(0)).range());
 }
 
 }  // namespace taut::checker

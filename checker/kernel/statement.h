@@ -139,13 +139,20 @@ enum class PairKind {
   kCableCable,
   kCablePlatform,  ///< a cable and a body of the platform
 };
-/// Two bodies that have to be farther apart than `clearance` >= 0 [m].
+/// While the platform's origin is no farther than `within` from `at`, of W: bodies may overlap by less than `depth` [m].
+struct ContactZone {
+  ExactVector at;
+  mpq_class within;
+  mpq_class depth;
+};
+/// Two bodies that have to be farther apart than `clearance` >= 0 [m]; in zones, than minus the greatest depth.
 struct CheckedPair {
   PairKind kind = PairKind::kPlatformObstacle;
   std::size_t first = 0;
   std::size_t second = 0;
   mpq_class clearance;
-  std::string name{};  ///< "cable 3 / stack"
+  std::string name{};                ///< "cable 3 / stack"
+  std::vector<ContactZone> zones{};  ///< of bodies of the platform and obstacles that are no meshes
 };
 
 struct Bodies {
@@ -173,6 +180,10 @@ struct Bodies {
   [[nodiscard]] bool has_meshes() const {
     const auto is_mesh = [](const RigidBody& body) { return std::holds_alternative<MeshShape>(body.shape); };
     return std::ranges::any_of(platform, is_mesh) || std::ranges::any_of(obstacles, is_mesh);
+  }
+
+  [[nodiscard]] bool has_zones() const {
+    return std::ranges::any_of(pairs, [](const CheckedPair& pair) { return !pair.zones.empty(); });
   }
 
   /// Whether the second body of a pair is a half-space.

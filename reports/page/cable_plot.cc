@@ -115,29 +115,36 @@ Html distance_plot(const ReportContext& scene, const BrokenLimit& broken) {
   std::vector<std::pair<double, Range>> values;
   double least = 0;
   double greatest = broken.bodies->clearance;
+  std::vector<double> clearance;
   for (const PathSample& sample : scene.samples) {
     const BodyDistance there = scene.bodies.value().at(scene.sampler.model(), scene.sampler.rigid_pose(sample), pair);
     values.emplace_back(sample.position, Range{there.distance, there.distance});
-    least = std::min(least, there.distance);
-    greatest = std::max(greatest, there.distance);
+    clearance.push_back(there.clearance);
+    least = std::min({least, there.distance, there.clearance});
+    greatest = std::max({greatest, there.distance, there.clearance});
   }
   const double beyond = 0.08 * std::max(greatest - least, 1e-300);
   const Frame frame{least - beyond, greatest + beyond, std::max(scene.samples.back().position, 1e-300)};
   const DisplayUnit& unit = scene.illustration.units.length;
   const double right = kWidth - kRight;
   const double bottom = kHeight - kBottom;
-  const double asked = frame.y(broken.bodies->clearance);
+  std::string forbidden = fmt::format("M{} {:.1f}", kLeft, bottom);  // in steps halfway between samples
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double next = k + 1 < values.size() ? (values[k].first + values[k + 1].first) / 2 : values[k].first;
+    forbidden += fmt::format("V{:.1f}H{:.1f}", frame.y(clearance[k]), frame.x(next));
+  }
+  forbidden += fmt::format("V{:.1f}Z", bottom);
   const std::string what = fmt::format("Distance of {} along the move [{}]", scene.bodies->name(pair), unit.name());
-  const Html zero = broken.bodies->clearance > 0 ? limit(frame, 0, "0") : Html();
+  const Html zero = broken.bodies->clearance != 0 ? limit(frame, 0, "0") : Html();
   return html(
       "<figure class=\"cable-plot\"><figcaption>{}, sampled; below 0: how deep in each other, about; shaded: nearer "
       "than "
       "the clearance; dashed: where that is broken</figcaption><svg viewBox=\"0 0 {} {}\" role=\"img\" "
-      "aria-label=\"{}\"><rect class=\"forbidden\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>"
+      "aria-label=\"{}\"><path class=\"forbidden\" d=\"{}\"/>"
       "<path class=\"band\" d=\"{}\"/>{}{}<path class=\"mark\" d=\"M{:.1f} {:.1f}V{:.1f}\"/><rect class=\"frame\" "
       "x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/><text x=\"{}\" y=\"{}\">start</text><text x=\"{}\" y=\"{}\" "
       "class=\"end\">end</text></svg></figure>\n",
-      what, kWidth, kHeight, what, kLeft, asked, right - kLeft, bottom - asked, area(values, frame), zero,
+      what, kWidth, kHeight, what, forbidden, area(values, frame), zero,
       limit(frame, broken.bodies->clearance, unit.exact(broken.limit)), frame.x(broken.position), kTop, bottom, kLeft,
       kTop, right - kLeft, bottom - kTop, kLeft, kHeight - 8, right, kHeight - 8);
 }

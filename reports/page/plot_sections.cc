@@ -101,16 +101,17 @@ Html nearest_table(const ReportContext& scene) {
   std::vector<std::vector<Html>> rows;
   for (std::size_t n = 0; n < along.nearest.size(); ++n) {
     const double distance = along.distance[n][along.nearest_at[n]];
-    const double left = distance - along.clearance[n];
+    const double clearance = along.clearance[n][along.nearest_at[n]];
+    const BodyPair& pair = all.at(along.nearest[n]);
     rows.push_back({html("<bdi>{}</bdi>", scene.bodies->name(along.nearest[n])),
                     html("{}", with_minus_signs(unit.nearest(distance, 3))),
-                    html("{}", unit.exact(all.at(along.nearest[n]).clearance_m)),
-                    html("{}", with_minus_signs(unit.nearest(left, 3))),
+                    html("{}", with_minus_signs(unit.exact(asked_exactly({.clearance = clearance}, pair)))),
+                    html("{}", with_minus_signs(unit.nearest(distance - clearance, 3))),
                     html("{}", place_text(scene, scene.samples[along.nearest_at[n]].position))});
   }
   return table(
       html("The pairs that come nearest to their clearance, in floating point; below 0: about how deep they are "
-           "in each other"),
+           "in each other, or may be"),
       {{html("Bodies")},
        {html("Apart [{}]", unit.name()), true},
        {html("Clearance [{}]", unit.name()), true},

@@ -483,7 +483,7 @@ json bodies(const ReportContext& scene) {
   json pairs = json::array();
   for (std::size_t n = 0; n < along.nearest.size(); ++n) {
     pairs.push_back({{"name", scene.bodies->name(along.nearest[n])},
-                     {"clearance", number(along.clearance[n])},
+                     {"clearance", numbers(along.clearance[n])},
                      {"distance", numbers(along.distance[n])}});
   }
   const auto& checked = scene.certificate.problem.bodies->clearance_m;

@@ -303,6 +303,12 @@ BodiesStatement bodies_statement(const BodiesText& bodies) {
     result.notes.push_back(
         fmt::format("{} and {}: clearance {}", quoted_name(pair[0]), quoted_name(pair[1]), exact_length(clearance)));
   }
+  for (const auto& [pair, zone] : bodies.contacts) {
+    result.notes.push_back(fmt::format(
+        "{} and {} may touch, and be up to {} deep in each other, while the platform's origin is within {} of {}",
+        quoted_name(pair[0]), quoted_name(pair[1]), exact_length(zone.depth_m), exact_length(zone.within_m),
+        exact_place(exact_point(zone.at_m))));
+  }
   return result;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <span>
 
@@ -16,57 +15,6 @@ namespace {
 
 using Point = Vector3<double>;
 using Points = std::vector<Point>;
-
-/// How far the first has to be moved along a unit vector until a plane across it is between the two.
-double overlap_along(const Points& first, const Points& second, const Point& u) {
-  double least = std::numeric_limits<double>::infinity();
-  double greatest = -least;
-  for (const Point& a : first) least = std::min(least, u.dot(a));
-  for (const Point& b : second) greatest = std::max(greatest, u.dot(b));
-  return greatest - least;
-}
-
-/// About how deep two hulls that meet are in each other: the least overlap along any direction, sought among many of
-/// them and then around the best.
-double depth_of(const Points& first, const Points& second) {
-  constexpr int kDirections = 600;
-  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-  struct Tried {
-    double overlap;
-    Point u;
-  };
-  std::vector<Tried> tried;
-  for (int k = 0; k < kDirections; ++k) {  // points that are spread over a sphere
-    const double z = 1 - (2 * k + 1.0) / kDirections;
-    const double across = std::sqrt(1 - z * z);
-    const Point u(across * std::cos(golden * k), across * std::sin(golden * k), z);
-    tried.push_back({overlap_along(first, second, u), u});
-  }
-  constexpr std::size_t kStarts = 6;
-  std::ranges::partial_sort(tried, tried.begin() + kStarts, {}, &Tried::overlap);
-  double best = tried.front().overlap;
-  for (std::size_t start = 0; start < kStarts; ++start) {
-    auto [least, u] = tried[start];
-    for (double step = 0.1; step > 1e-7; step /= 2) {
-      for (int turns = 0; turns < 8; ++turns) {
-        bool is_better = false;
-        const Point across = u.unitOrthogonal();
-        const Point other = u.cross(across);
-        for (const Point& aside : {across, Point(-across), other, Point(-other)}) {
-          const Point next = (u + step * aside).normalized();
-          const double overlap = overlap_along(first, second, next);
-          if (!(overlap < least)) continue;
-          least = overlap;
-          u = next;
-          is_better = true;
-        }
-        if (!is_better) break;
-      }
-    }
-    best = std::min(best, least);
-  }
-  return std::max(best, 0.0);
-}
 
 Point weighted(const Points& points, const std::vector<double>& shares) {
   Point result = Point::Zero();
@@ -176,7 +124,7 @@ BodyInFrame in_frame(const BodyModel<double>& bodies, const CheckedPair<double>&
 BodyDistance BodyDistances::at(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
   auto [first, second] = placed(model, pose, n);
   const CheckedPair<double>& pair = bodies_.bodies().pairs[n];
-  BodyDistance result{n, 0, pair.clearance};
+  BodyDistance result{n, 0, required_distance(pair, pose.p).at_most};
   const BodyInFrame a = in_frame(bodies_.bodies(), pair, true, pose, first.points);
   const BodyInFrame b = in_frame(bodies_.bodies(), pair, false, pose, second.points);
   bool is_inside = false;
@@ -208,8 +156,16 @@ BodyDistance BodyDistances::at(const Model<double>& model, const RigidPose& pose
     result.at[1] += second.radius * along;
     return result;
   }
-  result.distance = -depth_of(first.points, second.points) - first.radius - second.radius;
+  result.distance = -overlap(first.points, second.points).depth - first.radius - second.radius;
   return result;
+}
+
+DecimalText asked_exactly(const BodyDistance& distance, const BodyPair& pair) {
+  const auto is_it = [&](const ContactZoneText& zone) {
+    return -ScalarTraits<double>::from_decimal(zone.depth_m) == distance.clearance;
+  };
+  const auto zone = std::ranges::find_if(pair.zones, is_it);
+  return zone == pair.zones.end() ? pair.clearance_m : "-" + zone->depth_m;
 }
 
 std::vector<BodyDistance> BodyDistances::nearest(const Model<double>& model, const RigidPose& pose,
@@ -249,8 +205,8 @@ DistancesAlong distances_along(const BodyDistances& distances, const Sampler& sa
     for (const std::size_t n : order) {
       Known& last = known[n];
       // A pair that was farther apart than it can have come nearer since is not the one.
-      const bool is_out =
-          last.is_measured && least && last.left - moved(bodies.pairs[n], last.pose, pose, reach) > least->left();
+      const bool is_out = last.is_measured && bodies.pairs[n].zones.empty() && least &&
+                          last.left - moved(bodies.pairs[n], last.pose, pose, reach) > least->left();
       if (is_out) continue;
       const BodyDistance now = distances.at(sampler.model(), pose, n);
       last = {now.left(), std::min(last.least, now.left()), pose, true};
@@ -263,14 +219,15 @@ DistancesAlong distances_along(const BodyDistances& distances, const Sampler& sa
   struct Column {
     std::size_t pair, least_at;
     double left;
-    std::vector<double> distance;
+    std::vector<double> distance, clearance;
   };
   std::vector<Column> columns;
   for (const std::size_t n : order) {
-    Column& column = columns.emplace_back(Column{n, 0, std::numeric_limits<double>::infinity(), {}});
+    Column& column = columns.emplace_back(Column{n, 0, std::numeric_limits<double>::infinity(), {}, {}});
     for (std::size_t k = 0; k < poses.size(); ++k) {
       const BodyDistance now = distances.at(sampler.model(), poses[k], n);
       column.distance.push_back(now.distance);
+      column.clearance.push_back(now.clearance);
       if (!(now.left() < column.left)) continue;
       column.left = now.left();
       column.least_at = k;
@@ -280,7 +237,7 @@ DistancesAlong distances_along(const BodyDistances& distances, const Sampler& sa
   for (Column& column : columns) {
     result.nearest.push_back(column.pair);
     result.nearest_at.push_back(column.least_at);
-    result.clearance.push_back(bodies.pairs[column.pair].clearance);
+    result.clearance.push_back(std::move(column.clearance));
     result.distance.push_back(std::move(column.distance));
   }
   return result;

@@ -18,12 +18,15 @@ struct BodyDistance {
   std::size_t pair = 0;  ///< in the order of pairs() of problem/bodies.h
   /// Between the two surfaces; where the bodies overlap, minus about how far one has to be moved until they don't [m].
   double distance = 0;
-  double clearance = 0;  ///< asked [m]
+  double clearance = 0;  ///< asked there; where the pair may touch, minus the depth allowed [m]
   /// A point of either body, in W: the nearest ones, or one of both where they overlap [m].
   std::array<Vector3<double>, 2> at{Vector3<double>::Zero(), Vector3<double>::Zero()};
 
   [[nodiscard]] double left() const { return distance - clearance; }
 };
+
+/// `clearance`, exactly. @param pair  the same
+[[nodiscard]] DecimalText asked_exactly(const BodyDistance& distance, const BodyPair& pair);
 
 /// The pairs of one problem.
 class BodyDistances {
@@ -59,8 +62,8 @@ struct DistancesAlong {
   std::vector<BodyDistance> least;
   std::vector<std::size_t> nearest;             ///< pairs that come nearest, with the least left first
   std::vector<std::vector<double>> distance;    ///< of each of these at each sample [m]
-  std::vector<double> clearance;                ///< asked of each of these [m]
-  std::vector<std::size_t> nearest_at;          ///< of each of these, the sample with its least distance
+  std::vector<std::vector<double>> clearance;   ///< asked of each of these at each sample, as in BodyDistance [m]
+  std::vector<std::size_t> nearest_at;          ///< of each of these, the sample with the least left
   static constexpr std::size_t kMostPairs = 6;  ///< in `nearest`
 
   /// The sample at which the least is left of all. @pre there are samples

@@ -49,7 +49,7 @@ double severity_of(const BodyDistance& bodies) {
 
 void set_bodies(const ReportContext& scene, BrokenLimit& broken, const BodyDistance& bodies) {
   broken.bodies = bodies;
-  broken.limit = pairs(*scene.certificate.problem.bodies).at(bodies.pair).clearance_m;
+  broken.limit = asked_exactly(bodies, pairs(*scene.certificate.problem.bodies).at(bodies.pair));
   broken.value = bodies.distance;
   broken.severity = severity_of(bodies);
 }
@@ -235,8 +235,8 @@ std::string amount_text(const ReportContext& scene, const BrokenLimit& broken) {
   if (broken.is_singular) return "the cables cannot balance every load";
   if (broken.bodies) {
     const DisplayUnit& length = scene.illustration.units.length;
-    return fmt::format("{}; clearance {} {}", apart_text(*broken.bodies, length), length.exact(broken.limit),
-                       length.name());
+    return fmt::format("{}; {}", apart_text(*broken.bodies, length),
+                       asked_text(*broken.bodies, *scene.certificate.problem.bodies, length));
   }
   const bool length = is_length(broken.margin);
   const DisplayUnit& unit = scene.illustration.units.of(length);

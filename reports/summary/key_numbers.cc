@@ -319,17 +319,17 @@ std::optional<KeyNumber> clearance_number(const ReportContext& scene, bool is_pr
   const std::string value = has_bound  ? fmt::format("{} {} left", of_left.exact(size), of_left.name())
                             : left > 0 ? fmt::format("about {} {} left", of_left.down(left, kDigits), of_left.name())
                                        : fmt::format("{} {}", of_left.nearest(-left, kDigits), of_left.name());
-  const std::string asked = unit.exact(pairs(*scene.certificate.problem.bodies).at(nearest.pair).clearance_m);
-  return KeyNumber{"clearance",
-                   left > 0 ? "Least clearance left" : "Bodies too near, by about",
-                   value,
-                   fmt::format("{}, {}, clearance {} {} · {}; sampled{}", scene.bodies->name(nearest.pair),
-                               apart_text(nearest, unit), asked, unit.name(),
-                               place_text(scene, scene.samples[k].position), has_bound ? "" : ", not proved"),
-                   worse(nearness_of_bodies(left + nearest.clearance, nearest.clearance,
-                                            machine_size(scene.certificate.problem.robot)),
-                         Nearness::kCalm),
-                   has_bound};
+  const std::string asked = asked_text(nearest, *scene.certificate.problem.bodies, unit);
+  return KeyNumber{
+      "clearance",
+      left > 0 ? "Least clearance left" : "Bodies too near, by about",
+      value,
+      fmt::format("{}, {}, {} · {}; sampled{}", scene.bodies->name(nearest.pair), apart_text(nearest, unit), asked,
+                  place_text(scene, scene.samples[k].position), has_bound ? "" : ", not proved"),
+      worse(nearness_of_bodies(left + nearest.clearance, nearest.clearance,
+                               machine_size(scene.certificate.problem.robot)),
+            Nearness::kCalm),
+      has_bound};
 }
 
 }  // namespace

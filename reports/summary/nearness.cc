@@ -55,6 +55,7 @@ Nearness nearness_of_length(const Range& length, double lower_limit, double uppe
 Nearness nearness_of_bodies(double distance, double clearance, double size) {
   if (!(distance > clearance)) return Nearness::kOut;
   if (clearance > 0) return by_use(clearance / distance);
+  if (clearance < 0) return by_use(distance / clearance);  // of the depth
   if (distance < kCloseBodies * size) return Nearness::kClose;
   return distance < kNearBodies * size ? Nearness::kNear : Nearness::kCalm;
 }

@@ -43,6 +43,11 @@ ScopeItem collisions(const std::optional<BodiesText>& bodies) {
         " Whether anything is inside of " + names + ": the mesh is not closed, so only its surface is checked.";
     item.goal += " Nothing is inside of " + names + ".";
   }
+  if (!bodies->contacts.empty()) {
+    item.brief += "; what bodies that may touch do to each other";
+    item.text += " Where bodies may touch, what they do to each other: the cables balance the whole load there, too.";
+    item.goal += " Bodies that may touch do no harm to each other.";
+  }
   const bool has_cables = bodies->clearance_m[1] || bodies->clearance_m[2] || bodies->clearance_m[3];
   if (has_cables && has_free_ends(*bodies)) {
     item.brief += "; of cables’ free ends";

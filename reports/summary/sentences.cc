@@ -299,6 +299,12 @@ std::string apart_text(const BodyDistance& distance, const DisplayUnit& unit) {
   return fmt::format("about {} {} apart", size, unit.name());
 }
 
+std::string asked_text(const BodyDistance& distance, const BodiesText& bodies, const DisplayUnit& unit) {
+  const std::string asked = unit.exact(asked_exactly(distance, pairs(bodies).at(distance.pair)));
+  if (distance.clearance < 0) return fmt::format("may be {} {} deep there", asked.substr(1), unit.name());
+  return fmt::format("clearance {} {}", asked, unit.name());
+}
+
 std::string point_in_space(const Vector3<double>& at, const DisplayUnit& unit) {
   // To a tenth of a millimetre; 0.0 takes the sign from a 0.
   const auto shown = [&](double x) { return unit.fixed(std::round(1e4 * x) / 1e4 + 0.0, 4); };
@@ -412,6 +418,9 @@ namespace {
 std::string contact_text(const PathWitness& witness, const BodiesText& bodies, const DisplayUnits& units) {
   const BodyPair pair = pairs(bodies).at(witness.contact->pair);
   const std::string both = pair_words(bodies, pair);
+  if (!pair.zones.empty()) {
+    return fmt::format("{} are nearer to each other, or deeper in each other, than the case allows there", both);
+  }
   const Decimal clearance = Decimal::parse(pair.clearance_m);
   const Rational depth = witness.depth_m.empty() ? Rational(0) : Decimal::parse(witness.depth_m).rational();
   const std::string allowed = quantity(pair.clearance_m, true, units);

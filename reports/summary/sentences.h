@@ -67,6 +67,8 @@ struct Statement {
 [[nodiscard]] std::string bodies_text(const Problem& problem);
 /// "about 0.12 m apart" or "about 30 mm deep in each other": in floating point.
 [[nodiscard]] std::string apart_text(const BodyDistance& distance, const DisplayUnit& unit);
+/// "clearance 200 mm", or "may be 5 mm deep there".
+[[nodiscard]] std::string asked_text(const BodyDistance& distance, const BodiesText& bodies, const DisplayUnit& unit);
 /// "(1.2, 0, 3) m": a point, rounded.
 [[nodiscard]] std::string point_in_space(const Vector3<double>& at, const DisplayUnit& unit);
 

@@ -75,8 +75,8 @@ nlohmann::json bodies_json(const ReportContext& scene) {
     result["nearest"].push_back({{"pair", names(bodies, all.at(along.nearest[n]))},
                                  {"class", name(all.at(along.nearest[n]).kind)},
                                  {"distance_m", along.distance[n][k]},
-                                 {"clearance_m", along.clearance[n]},
-                                 {"left_m", along.distance[n][k] - along.clearance[n]},
+                                 {"clearance_m", along.clearance[n][k]},
+                                 {"left_m", along.distance[n][k] - along.clearance[n][k]},
                                  {"at", scene.samples[k].position}});
   }
   return result;

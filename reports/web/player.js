@@ -104,7 +104,9 @@ class Readout {
     const { name, distance, clearance } = nearestPair(bodies, where);
     const apart = distance < 0 ? `in each other, about ${text(-distance * factor, 3)} ${unit} deep`
       : `${text(distance * factor, 3)} ${unit} apart`;
-    this.bodies.textContent = `Nearest bodies: ${name}, ${apart} (clearance ${text(clearance * factor)} ${unit})`;
+    const asked = clearance < 0 ? `may be ${text(-clearance * factor)} ${unit} deep here`
+      : `clearance ${text(clearance * factor)} ${unit}`;
+    this.bodies.textContent = `Nearest bodies: ${name}, ${apart} (${asked})`;
     this.bodies.className = `bodies ${distance > clearance ? "" : "out"}`;
   }
 }

@@ -305,29 +305,30 @@ export function clearancePanels(data) {
   const proved = (margins.clearance_m ?? []).map((x) => (x === null ? null : x * factor));
   return [
     marginPanel(data, "Left of all clearances", unit, proved, left, 0),
-    ...pairs.map((pair) => pairPanel(data, pair.name, scale(pair.distance), pair.clearance * factor)),
+    ...pairs.map((pair) => pairPanel(data, pair.name, scale(pair.distance), scale(pair.clearance))),
   ];
 }
 
 function pairPanel(data, name, distance, clearance) {
   const unit = data.lengthUnit.name;
   const range = extent(distance) ?? [0, 1];
-  const domain = paddedDomain([Math.min(range[0], clearance, 0), Math.max(range[1], clearance)]);
+  const asked = extent(clearance) ?? [0, 0];  // one number but where the two may touch
+  const domain = paddedDomain([Math.min(range[0], asked[0], 0), Math.max(range[1], asked[1])]);
   const decimals = decimalsFor(domain[1] - domain[0]);
   return new Panel({
     title: name,
     rest: `sampled, at least ${text(range[0], 3)} ${unit}`,
     description: `Distance of ${name} along the move: sampled, at least ${text(range[0], 3)} ${unit}; clearance ` +
-      `${text(clearance)} ${unit}.`,
+      `${asked[0] < asked[1] ? `from ${text(asked[0])} to ` : ""}${text(asked[1])} ${unit}.`,
     domain,
     label: `apart [${unit}]`,
     draw: (axis, across) => {
       const { behind, before } = marks(data, axis, domain);
       return [
-        Plot.rect([0], {
-          x1: across[0], x2: across[1], y1: domain[0], y2: clearance, fill: "var(--forbidden)", clip: true,
+        Plot.areaY(axis.values.map((x, k) => ({ x, y: clearance[k] ?? NaN })), {
+          x: "x", y1: domain[0], y2: "y", curve: "step", fill: "var(--forbidden)", clip: true,
         }),
-        limitLines([clearance]), behind,
+        limitLines([...new Set(clearance)]), behind,
         Plot.lineY(axis.values.map((x, k) => ({ x, y: distance[k] ?? NaN })), {
           x: "x", y: "y", stroke: "var(--calm)", strokeWidth: 1.8, clip: true,
         }),
