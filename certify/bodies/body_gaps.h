@@ -9,8 +9,8 @@
 //   u·(p + R x) = u·p + (Rᵀu)·x,   the ends of cable i: u·a_i and u·p + (Rᵀu)·b_i,
 // and in those of the platform its points stand still, a point x of an obstacle is at (R u)·(x − p), and the ends of
 // cable i are (R u)·(a_i − p) and u·b_i. A cable's points at the shares λ of its length lie between them. All of this
-// holds of bodies that overlap, too: their distance is minus the length of the shortest translation of one of them after
-// which they don't. Proofs: docs/theory.md, "Clearance".
+// holds of bodies that overlap, too: their distance is minus the length of the shortest translation of one of them
+// after which they don't. Proofs: docs/theory.md, "Clearance".
 #pragma once
 
 #include <array>
@@ -137,10 +137,10 @@ class BodyGaps {
   /// Claim, if true: at m, on the undisturbed machine, this point of one body is inside of the other, a watertight
   /// mesh. @pre points.inside
   [[nodiscard]] bool is_inside_at_mid(const CheckedPair<I>& pair, const PointPair& points) const;
-  /// Claim, if true: the two bodies of the pair, of the undisturbed machine, have a common point at every t of T and are
-  /// nowhere farther apart than required. The vectors from the second to the first of these four pairs of points are
-  /// around 0, and around a ball about it where bodies may overlap. @pre neither is a half-space, and
-  /// neither a mesh
+  /// Claim, if true: the two bodies of the pair, of the undisturbed machine, have a common point at every t of T and
+  /// are nowhere farther apart than required. The vectors from the second to the first of these four pairs of points
+  /// are around 0, and around a ball about it where bodies may overlap. @pre neither is a half-space, and neither a
+  /// mesh
   [[nodiscard]] bool meet(const CheckedPair<I>& pair, const std::array<PointPair, 4>& points) const;
 
  private:

@@ -566,8 +566,8 @@ double depth(const FourVertices& v, Point& outward) {
   return least;
 }
 
-/// Vertices of the difference of two hulls with a ball about 0 of this radius well inside of their own hull, if such are
-/// found: from four far ones, again and again one is replaced by the farthest beyond the face that is nearest to 0.
+/// Vertices of the difference of two hulls with a ball about 0 of this radius well inside of their own hull, if such
+/// are found: from four far ones, again and again one is replaced by the farthest beyond the face that is nearest to 0.
 std::optional<FourVertices> around_zero(std::span<const Point> first, std::span<const Point> second, double radius) {
   constexpr int kMostSteps = 16;
   const auto beyond = [&](const Point& along) {

@@ -40,7 +40,8 @@ class BodySampler {
   /// Whether elements of a mesh have to be told apart one by one.
   [[nodiscard]] bool needs_list(std::size_t pair) const;
   /// How much farther than required (required_distance()) a pair is apart at a pose [m]; where hulls meet, minus radii
-  /// and clearance, unless they may meet somewhere; where a part of one body is inside of the other, a watertight mesh, minus how far surfaces are apart as well.
+  /// and clearance, unless they may meet somewhere; where a part of one body is inside of the other, a watertight mesh,
+  /// minus how far surfaces are apart as well.
   [[nodiscard]] double gap(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
   /// gap() less what deviations within the tolerances take of it, no more than that: a pair without room can't be
   /// proved to be clear.

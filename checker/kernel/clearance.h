@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clause "clearance": the two bodies of every checked pair are farther apart than the pair's clearance; or, in zones of
-// contact, than minus the greatest depth of those that the platform's origin p of the stated machine is in. The distance
-// of bodies that overlap is minus the length of the shortest translation of one of them after which they do not.
+// contact, than minus the greatest depth of those that the platform's origin p of the stated machine is in. The
+// distance of bodies that overlap is minus the length of the shortest translation of one of them after which they do
+// not.
 //
 // Every body is a half-space, a mesh (mesh_clearance.h), or the hull of finitely many balls, which is convex. Let the
 // first body of a pair be the hull of balls (a_k, r_k), the second that of balls (b_l, s_l). For every vector u that is
 // not 0 their distance is at least
 //     min_k (u . a_k / |u| - r_k)  -  max_l (u . b_l / |u| + s_l),                                                (1)
 // as no point of the first has a smaller u . x / |u| than the first term, and none of the second a larger one than the
-// second; and a translation by t moves u . x / |u| by no more than |t|, which holds for bodies that overlap. That of a half-space {x : n . x <= c} is c / |n| for u = n. Any u will do: a poor one proves less.
+// second. Where (1) is -g, a translation by g along u makes it 0, and tells bodies apart that overlap. The second term
+// of a half-space {x : n . x <= c} is c / |n| for u = n. Any u will do: a poor one proves less.
 //
 // Where bodies are.  Along u of W, with v = R' u,
 //     platform's point x:   u . p + v . x                    an obstacle's point q:   u . q
@@ -44,8 +46,8 @@
 
 namespace taut::checker {
 
-/// For each pair: a number that its distance minus what it has to be more than is not less than, for every s of the box and every
-/// machine and pose within the tolerances [m].
+/// For each pair: a number that its distance, minus what it has to be more than, is not less than, for every s of the
+/// box and every machine and pose within the tolerances [m].
 /// @param loss  what tolerances take away; of length and pose only
 /// @throws Undefined where a cable may not be longer than its free ends, and where `apart` has no direction that may be
 /// used for a pair: of W for a cable against an obstacle, of P for a cable against a body of the platform, else either;
@@ -57,8 +59,8 @@ namespace taut::checker {
                                                   const Apart& apart, const std::optional<Ball>& enough = {});
 
 /// By how much these points of a pair's bodies are nearer to each other than both radii and the clearance together
-/// allow, or the least depth that a zone may give in place of the clearance [m]: the pair is not clear where that is not
-/// negative. @pre geometry is that of one place
+/// allow, or minus a depth where a zone may give it in place of the clearance [m]: the pair is not clear where that is
+/// not negative. @pre geometry is that of one place
 /// @throws Undefined where a cable may not be longer than its free ends.
 [[nodiscard]] Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t pair,
                                  const ContactWeights& weights, const ContactElements& elements = {});

@@ -21,11 +21,12 @@
 //                  |v| <= both radii + c,                                                                         (2)
 //              c being the clearance, or minus the greatest depth of the zones that p may be in: balls around x and y
 //              can not be told apart by a translation that is shorter than both radii - |v|. Or four, and at every pose
-//              0 is in their hull: then a convex combination of all x_k is that of all y_k, and the bodies meet. As det(v1 v2 v3) v0 - det(v0 v2 v3) v1 + det(v0 v1 v3) v2 - det(v0 v1 v2) v3 = 0
+//              0 is in their hull: then a convex combination of all x_k is that of all y_k, and the bodies meet. As
+//                  det(v1 v2 v3) v0 - det(v0 v2 v3) v1 + det(v0 v1 v3) v2 - det(v0 v1 v2) v3 = 0
 //              for all vectors, 0 is in the hull if these four coefficients are positive, or if all are negative. The
-//              size of each, divided by that of the normal (b - a) x (c - a) of the three vectors in it, is the distance
-//              of 0 from their plane. Where the bodies may overlap, none of the four is less than -c - both radii: then
-//              no translation that is shorter than -c tells the bodies apart.
+//              size of each, divided by that of the normal (b - a) x (c - a) of the three vectors in it, is the
+//              distance of 0 from their plane. Where the bodies may overlap, none of the four is less than
+//              -c - both radii: then no translation that is shorter than -c tells the bodies apart.
 #pragma once
 
 #include <span>
@@ -82,7 +83,8 @@ class OutsideProof {
   /// their limits balance some wrench of K. @throws Undefined where that can't be told.
   [[nodiscard]] bool holds(const OutsideReason& reason);
   /// Claim, if true. For every pose of the cell: the two bodies of the pair are not farther apart than the pair's
-  /// clearance or, in zones of contact, than minus their depth. @throws Undefined where that can't be told, such as where a cable may not be longer than its free ends.
+  /// clearance or, in zones of contact, than minus their depth. @throws Undefined where that can't be told, such as
+  /// where a cable may not be longer than its free ends.
   /// @pre the problem has this pair, and the weights are as many as either body has points
   [[nodiscard]] bool holds(const ContactReason& reason) const;
 

@@ -139,9 +139,9 @@ enum class PairKind {
   kCableCable,
   kCablePlatform,  ///< a cable and a body of the platform
 };
-/// While the platform's origin is no farther than `within` from `at`, of W: bodies may overlap by less than `depth` [m].
+/// Where bodies may overlap by less than `depth`: with the platform's origin no farther than `within` from `at` [m].
 struct ContactZone {
-  ExactVector at;
+  ExactVector at;  ///< of W
   mpq_class within;
   mpq_class depth;
 };

@@ -371,6 +371,62 @@ TEST(Prover, DecidesAClearanceToAHundredthOfAMillimetre) {
   }
 }
 
+/// The container, whose underside is 3.5 m below P, stands on the floor or on the stack, which is 2.6 m high.
+TEST(Prover, LetsALoadLeaveWhatItStandsOn) {
+  for (const bool on_stack : {false, true}) {
+    const double ground = on_stack ? 6.1 : 3.5;
+    const double x = on_stack ? 0 : -4;
+    const auto verdict = [&](double height, const char* within, const char* depth, bool has_tolerances = false) {
+      Problem problem = has_tolerances ? deviating_crane() : crane();
+      const DecimalText where = on_stack ? "6.1" : "3.5";
+      problem.bodies->contacts = {
+          {{"container", on_stack ? "stack" : "floor"}, {{text(x), "0", where}, within, depth}}};
+      validate(problem);
+      return Prover(problem).prove(at({x, 0, height, 0, 0, 0}), at({x, 0.5, ground + 1, 0, 0, 0}));
+    };
+    const SegmentProof lifted = verdict(ground, "0.5", "0.005");
+    EXPECT_EQ(lifted.verdict, Verdict::kProved) << lifted.reason;
+    EXPECT_NEAR(lifted.clearance_m, 0.005, 1e-3);
+    EXPECT_EQ(verdict(ground - 0.004, "0.5", "0.005").verdict, Verdict::kProved);
+    EXPECT_NE(verdict(ground - 0.006, "0.5", "0.005").verdict, Verdict::kProved);
+    if (!on_stack) {
+      EXPECT_EQ(verdict(ground - 0.006, "0.5", "0.005").verdict, Verdict::kRefuted);
+    }
+    // 0.1 m off the place it is not 0.2 m off the ground yet.
+    EXPECT_EQ(verdict(ground, "0.1", "0.005").verdict, Verdict::kRefuted);
+    // Deviations move the container's corners by up to 79 mm, and the crane is held to 50 mm.
+    EXPECT_EQ(verdict(ground, "0.6", "0.1", true).verdict, Verdict::kProved);
+    EXPECT_NE(verdict(ground, "0.6", "0.04", true).verdict, Verdict::kProved);
+  }
+}
+
+TEST(Overlap, IsTheShortestWayOut) {
+  std::mt19937_64 random(22);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int trial = 0; trial < 50; ++trial) {
+    std::array<std::vector<Point>, 2> bodies;
+    for (auto& points : bodies) {
+      const Matrix3<double> r = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+      const Point half(uniform(0.2, 1), uniform(0.2, 1), uniform(0.2, 1));
+      const Point middle(uniform(-0.3, 0.3), uniform(-0.3, 0.3), uniform(-0.3, 0.3));
+      for (int k = 0; k < 8; ++k) {
+        const Point corner((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 1 : -1, (k & 4) != 0 ? 1 : -1);
+        points.emplace_back(middle + r * corner.cwiseProduct(half));
+      }
+    }
+    const Overlap found = overlap(bodies[0], bodies[1]);
+    ASSERT_GT(found.depth, 0);
+    EXPECT_NEAR(found.along.norm(), 1, 1e-12);
+    const auto distance_after = [&](double way) {
+      std::vector<Point> moved = bodies[0];
+      for (Point& x : moved) x += way * found.along;
+      return nearest_points(moved, bodies[1]).distance;
+    };
+    EXPECT_EQ(distance_after(0.99 * found.depth), 0);
+    EXPECT_NEAR(distance_after(1.1 * found.depth), 0.1 * found.depth, 1e-6);
+  }
+}
+
 TEST(Prover, LooksForNothingThatRefutesIfAProofIsAllThatIsWanted) {
   const Prover prover(crane());
   const auto verdict = [&](double height, ProofAim aim) {

@@ -345,6 +345,45 @@ TEST(Clearance, HoldsAlongAWholeBox) {
   EXPECT_GT(boxes, 30);
 }
 
+/// A zone that holds all of the path takes the place of the clearance, one that may hold some of it only refutes less.
+TEST(Clearance, IsMinusADepthWhereAZoneHoldsAllOfTheBox) {
+  const WorkingPrecision precision(128);
+  std::mt19937_64 random(27);
+  for (int k = 0; k < 20; ++k) {
+    ClearanceTrial trial = random_trial(random, std::nullopt, 0.01);
+    const Apart apart = trial.choose_directions(random, 0);
+    const std::vector<Ball> before = trial.margins(apart).margins;
+    const auto with = [&](double offset, double within) {
+      for (CheckedPair& pair : trial.bodies().pairs) {
+        if (pair.kind != PairKind::kPlatformObstacle) continue;
+        const ExactVector at = {mpq_class(trial.from[0] + offset), mpq_class(trial.from[1]), mpq_class(trial.from[2])};
+        pair.zones = {{at, ratio(within), ratio(0.02)}, {at, ratio(within), ratio(0.01)}};
+      }
+      return trial.margins(apart).margins;
+    };
+    const std::vector<Ball> inside = with(0, 0.1), across = with(0, 0.005), outside = with(1, 0.1);
+    const Machine machine(trial.problem);
+    for (std::size_t p = 0; p < before.size(); ++p) {
+      const CheckedPair& pair = trial.bodies().pairs[p];
+      const double more = pair.zones.empty() ? 0 : mpq_class(pair.clearance + ratio(0.02)).get_d();
+      EXPECT_NEAR(approx(inside[p]), approx(before[p]) + more, 1e-12);
+      EXPECT_EQ(approx(across[p]), approx(before[p]));
+      EXPECT_EQ(approx(outside[p]), approx(before[p]));
+    }
+    const auto required = [&](std::size_t p, double x, bool at_most) {
+      const Vector3<Ball> here = {Ball(x), Ball(trial.from[1]), Ball(trial.from[2])};
+      const PlacedBodies& bodies = *machine.bodies;
+      return approx(at_most ? bodies.required_at_most(p, here) : bodies.required_at_least(p, here));
+    };
+    EXPECT_NEAR(required(0, trial.from[0] + 1.09, true), -0.02, 1e-3);
+    EXPECT_NEAR(required(0, trial.from[0] + 1.09, false), -0.02, 1e-3);
+    EXPECT_GE(required(0, trial.from[0] + 1.11, false), 0);
+    const Vector3<Ball> anywhere = {hull(Ball(-3), Ball(3)), Ball(trial.from[1]), Ball(trial.from[2])};
+    EXPECT_GE(approx(machine.bodies->required_at_most(0, anywhere)), 0);
+    EXPECT_NEAR(approx(machine.bodies->required_at_least(0, anywhere)), -0.02, 1e-3);
+  }
+}
+
 TEST(Clearance, NeverIsProvedOfBodiesThatAreTooNear) {
   const WorkingPrecision precision(64);
   std::mt19937_64 random(25);

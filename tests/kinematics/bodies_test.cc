@@ -99,6 +99,81 @@ TEST(Pairs, HaveTheirOwnClearanceElseTheirBodiesElseTheirClass) {
   EXPECT_EQ(clearance["cable 1 / tool"], "0.01");
 }
 
+ContactText contact(const std::array<std::string, 2>& pair, DecimalText within = "0.3", DecimalText depth = "0.005") {
+  return {pair, {{"1", "2", "3"}, std::move(within), std::move(depth)}};
+}
+
+TEST(Pairs, HaveTheirZonesOfContact) {
+  BodiesText bodies = scene();
+  bodies.contacts = {contact({"floor", "deck"}), contact({"deck", "stack"}), contact({"deck", "floor"}, "0.1", "0.02")};
+  validate(bodies);
+  std::map<std::string, std::vector<ContactZoneText>> zones;
+  for (const BodyPair& pair : pairs(bodies)) zones[name(bodies, pair)] = pair.zones;
+  EXPECT_EQ(zones["deck / floor"], (std::vector{bodies.contacts[0].zone, bodies.contacts[2].zone}));
+  EXPECT_EQ(zones["deck / stack"], std::vector{bodies.contacts[1].zone});
+  EXPECT_TRUE(zones["tool / floor"].empty());
+  EXPECT_TRUE(zones["cable 1 / floor"].empty());
+}
+
+TEST(RequiredDistance, IsMinusTheGreatestDepthOfTheZonesThatHoldThePlace) {
+  CheckedPair<double> pair{PairClass::kPlatformObstacles, 0, 0, 0.2};
+  pair.zones = {{{1, 2, 3}, 0.5, 0.25}, {{1, 2, 4}, 0.75, 0.125}};
+  const auto at = [&](double x, double y, double z) {
+    const RequiredDistance<double> required = required_distance(pair, {x, y, z});
+    EXPECT_EQ(required.at_most, required.at_least);
+    return required.at_most;
+  };
+  EXPECT_EQ(at(1, 2, 3), -0.25);
+  EXPECT_EQ(at(1, 2, 2.5), -0.25);  // the surface of a ball belongs to it
+  EXPECT_EQ(at(1, 2, 2.49), 0.2);
+  EXPECT_EQ(at(1, 2, 3.375), -0.25);  // in both
+  EXPECT_EQ(at(1, 2, 4.75), -0.125);
+  EXPECT_EQ(at(1, 2.76, 4), 0.2);
+}
+
+TEST(RequiredDistance, IsNeitherMoreNorLessThanItsBoundsSay) {
+  run_upward([] {
+    CheckedPair<Interval> pair{PairClass::kPlatformObstacles, 0, 0, Interval(0.2)};
+    pair.zones = {{{Interval(1.0), Interval(2.0), Interval(3.0)}, Interval(0.5), Interval(0.25)}};
+    const auto at = [&](Interval z) { return required_distance(pair, {Interval(1.0), Interval(2.0), z}); };
+    EXPECT_EQ(at(Interval(2.5, 3.5)).at_most.upper(), -0.25);
+    EXPECT_EQ(at(Interval(2.4, 3.5)).at_most.upper(), 0.2);
+    EXPECT_EQ(at(Interval(2.4, 3.5)).at_least.lower(), -0.25);
+    EXPECT_EQ(at(Interval(3.5, 4.0)).at_least.lower(), -0.25);
+    EXPECT_EQ(at(Interval(3.5625, 4.0)).at_least.lower(), 0.2);
+    EXPECT_EQ(at(Interval(std::numeric_limits<double>::quiet_NaN())).at_most.upper(), 0.2);
+    EXPECT_EQ(at(Interval(std::numeric_limits<double>::quiet_NaN())).at_least.lower(), -0.25);
+  });
+}
+
+TEST(Bodies, WithWrongContactsAreRejected) {
+  const auto with = [](std::vector<ContactText> entries) { return [entries](BodiesText& b) { b.contacts = entries; }; };
+  expect_rejected(with({contact({"deck", "stock"})}), "bodies.contacts[0].pair[1]: got 'stock'");
+  expect_rejected(with({contact({"deck", "tool"})}), "expected two bodies that move");
+  expect_rejected(with({contact({"cable 1", "floor"})}), "bodies.contacts[0].pair: got 'cable 1' and 'floor'");
+  expect_rejected(with({contact({"cable 1", "deck"})}), "expected a body of the platform and an obstacle");
+  expect_rejected(with({contact({"deck", "floor"}), contact({"tool", "floor"})}),
+                  "bodies.contacts[1].pair: got 'tool' and 'floor', expected a body of the platform and an obstacle, "
+                  "neither of them a mesh");
+  expect_rejected(with({contact({"deck", "rock"})}), "neither of them a mesh");
+  expect_rejected(with({contact({"deck", "floor"}, "0")}), "bodies.contacts[0].within: got 0, expected a length > 0");
+  expect_rejected(with({contact({"deck", "floor"}, "nan")}), "bodies.contacts[0].within");
+  expect_rejected(with({contact({"deck", "floor"}, "1", "-0.1")}), "bodies.contacts[0].depth: got -0.1");
+  expect_rejected(with({contact({"deck", "floor"}), contact({"deck", "floor"})}), "the same contact twice");
+  expect_rejected(with({65, contact({"deck", "floor"})}), "bodies.contacts: got 65 contacts, expected at most 64");
+  expect_rejected(
+      [](BodiesText& b) {
+        (b.contacts = {contact({"deck", "floor"})})[0].zone.at_m[2] = "x";
+      },
+      "bodies.contacts[0].at[2]");
+  expect_rejected(
+      [](BodiesText& b) {
+        b.contacts = {contact({"deck", "floor"})};
+        b.clearance_m[0].reset();
+      },
+      "the class 'platform-obstacles' is not");
+}
+
 TEST(Bodies, WithWrongNamesAreRejected) {
   expect_rejected([](BodiesText& b) { b.platform[1].name = "floor"; }, "bodies.obstacles[0].name: got 'floor' twice");
   expect_rejected([](BodiesText& b) { b.platform[0].name = "cable 6"; }, "bodies.platform[0].name: got 'cable 6'");
@@ -170,6 +245,7 @@ Problem with_bodies() {
   Problem problem = load_case(std::string(TAUT_SOURCE_DIR) + "/cases/robot1-slice-qs-qg.yaml").problem;
   problem.bodies = scene();
   problem.bodies->pair_clearances_m = {{{"rock", "deck"}, "0.05"}};
+  problem.bodies->contacts = {contact({"floor", "deck"}), contact({"deck", "stack"})};
   return problem;
 }
 
@@ -192,10 +268,12 @@ TEST(BodiesJson, RejectsEachMissingUnknownOrMistypedMember) {
     bad["bodies"][json::json_pointer(pointer)] = 7;
     EXPECT_THROW((void)problem_from_json(bad), InputError) << pointer;
   }
-  const std::set<std::string> optional = {"pair_clearances_m", "rotation_rad",  "clearance_m",    "platform-obstacles",
-                                          "cables-obstacles",  "cables-cables", "cables-platform"};
-  for (const char* place : {"", "/platform/0", "/platform/0/hull", "/platform/1", "/platform/1/mesh", "/obstacles/0",
-                            "/obstacles/0/half_space", "/cables", "/clearance_m", "/pair_clearances_m/0"}) {
+  const std::set<std::string> optional = {"contacts",      "pair_clearances_m",  "rotation_rad",
+                                          "clearance_m",   "platform-obstacles", "cables-obstacles",
+                                          "cables-cables", "cables-platform"};
+  for (const char* place :
+       {"", "/platform/0", "/platform/0/hull", "/platform/1", "/platform/1/mesh", "/obstacles/0",
+        "/obstacles/0/half_space", "/cables", "/clearance_m", "/pair_clearances_m/0", "/contacts/1"}) {
     const json::json_pointer pointer("/bodies" + std::string(place));
     json extra = good;
     extra[pointer]["extra"] = "1";
@@ -216,6 +294,9 @@ TEST(BodiesJson, RejectsEachMissingUnknownOrMistypedMember) {
   json no_pairs = good;
   no_pairs["bodies"]["pair_clearances_m"] = json::array();
   EXPECT_THROW((void)problem_from_json(no_pairs), InputError);
+  json no_contacts = good;
+  no_contacts["bodies"]["contacts"] = json::array();
+  EXPECT_THROW((void)problem_from_json(no_contacts), InputError);
 }
 
 }  // namespace

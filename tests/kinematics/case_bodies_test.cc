@@ -236,6 +236,28 @@ TEST(CasePairs, MayHaveAClearanceOfTheirOwn) {
   expect_rejected(bodies + "pair_clearances: [{pair: [post], clearance: 1}]\n", "expected the names of two bodies");
 }
 
+TEST(CasePairs, MayTouchSomewhere) {
+  const std::string bodies = std::string("clearance: 0.1\n") + kCables + kDeck + kPost;
+  const std::string contact = "{pair: [post, deck], at: [0, 1 m, 2], within: 30 cm, depth: 5 mm}";
+  const BodiesText text = read(bodies + "contacts: [" + contact + "]\n").text;
+  EXPECT_EQ(text.contacts, (std::vector<ContactText>{{{"post", "deck"}, {{"0", "1", "2"}, "0.3", "0.005"}}}));
+  EXPECT_EQ(pairs(text).front().zones.size(), 1U);
+  const auto expect_spoilt = [&](const std::string& from, const std::string& to, const std::string& message) {
+    std::string spoilt = contact;
+    spoilt.replace(spoilt.find(from), from.size(), to);
+    expect_rejected(bodies + "contacts: [" + spoilt + "]\n", message);
+  };
+  expect_spoilt("30 cm", "0", "bodies.contacts[0].within: got '0', expected a length above zero");
+  expect_spoilt("5 mm", "-5 mm", "bodies.contacts[0].depth: got '-5 mm', expected a length above zero");
+  expect_spoilt("5 mm", "5 deg", "bodies.contacts[0].depth");
+  expect_spoilt(", depth: 5 mm", "", "got no 'depth'");
+  expect_spoilt("depth", "deep", "got the unknown key 'deep'");
+  expect_spoilt("2]", "2, 3]", "a point: a list of three lengths");
+  expect_spoilt("deck", "dock", "bodies.contacts[0].pair[1]: got 'dock', expected the name of a body");
+  expect_rejected(bodies + "contacts: []\n", "got an empty list, expected one contact or more");
+  expect_rejected(bodies + "contacts: 3\n", "expected a list of contacts");
+}
+
 // --- Anchors ---------------------------------------------------------------------------------------------------------
 
 TEST(CaseAnchors, InsideOfBodiesAreRejectedWhereTheCableAlwaysTouches) {

@@ -10,6 +10,7 @@
 #include "checker/format/parts.h"
 #include "tests/checker/bodies_oracle.h"
 #include "tests/map/problems.h"
+#include "tests/soundness/overlap.h"
 
 namespace taut::testing {
 
@@ -48,6 +49,22 @@ inline Problem with_bodies(Problem problem) {
   return problem;
 }
 
+/// The same, but where stick and box may be in some of the obstacles, in overlapping balls.
+inline Problem with_zones(Problem problem) {
+  problem = with_bodies(std::move(problem));
+  const auto zone = [](const char* x, const char* y, const char* z, const char* within, const char* depth) {
+    return ContactZoneText{{x, y, z}, within, depth};
+  };
+  problem.bodies->contacts = {{{"box", "plate"}, zone("0.05", "0", "0.3", "0.12", "0.004")},
+                              {{"plate", "box"}, zone("0.1", "0.05", "0.35", "0.1", "0.05")},
+                              {{"stick", "plate"}, zone("0.1", "0", "0.3", "0.1", "0.01")},
+                              {{"box", "ball"}, zone("0", "-0.1", "0.3", "0.1", "0.03")},
+                              {{"box", "floor"}, zone("0", "0", "0.4", "0.1", "0.02")},
+                              {{"stick", "floor"}, zone("0", "0.1", "0.4", "0.15", "0.03")}};
+  validate(problem);
+  return problem;
+}
+
 /// Distances of pairs of a problem's bodies.
 class BodiesOracle {
  public:
@@ -70,16 +87,24 @@ class BodiesOracle {
   [[nodiscard]] std::size_t pairs() const { return bodies_.pairs.size(); }
   [[nodiscard]] const std::string& name(std::size_t pair) const { return bodies_.pairs[pair].name; }
 
-  /// How much farther than its clearance a pair is apart, at least, and next to it; where hulls meet, minus radii and
-  /// clearance. @pre for BigFloat: in PrecisionScope(oracle::kBits)
+  /// How much farther than required a pair is apart, at least, and next to it; where hulls meet that may not meet
+  /// anywhere, minus radii and clearance. @pre for BigFloat: in PrecisionScope(oracle::kBits)
   template <class S>
   [[nodiscard]] S slack(const campaign::Machine<S>& machine, const campaign::RigidPose<S>& pose,
                         std::size_t pair) const {
     const checker::CheckedPair& of = bodies_.pairs[pair];
     const auto here = campaign::bodies_at<S>(bodies_, platform_, obstacles_, of, machine, pose);
-    const S clearance = campaign::exact<S>(of.clearance);
+    const S clearance = required<S>(of, pose.p);
+    const auto deeper = [&](const S& distance) {  // where the hulls meet
+      const auto* second = std::get_if<campaign::HullAt<S>>(&here.second);
+      if (of.zones.empty() || second == nullptr) return distance;
+      const S radii = here.first.radius + second->radius;
+      if (distance + radii > S(1e-9)) return distance;
+      const S deep = campaign::depth_of(here.first.points, second->points).size;
+      return deep > S(0.0) ? S(-deep - radii) : distance;
+    };
     if constexpr (std::is_same_v<S, double>) {
-      return campaign::distance_at(here, here) - clearance;
+      return deeper(campaign::distance_at(here, here)) - clearance;
     } else {
       campaign::Machine<double> rough;
       campaign::RigidPose<double> rough_pose;
@@ -92,8 +117,18 @@ class BodiesOracle {
         }
       }
       const auto search = campaign::bodies_at<double>(bodies_, platform_, obstacles_, of, rough, rough_pose);
-      return campaign::distance_at(here, search) - clearance;
+      return deeper(campaign::distance_at(here, search)) - clearance;
     }
+  }
+  template <class S>
+  [[nodiscard]] static S required(const checker::CheckedPair& pair, const campaign::Vec<S>& p) {
+    S result = campaign::exact<S>(pair.clearance);
+    for (const checker::ContactZone& zone : pair.zones) {
+      const campaign::Vec<S> from = p - campaign::exact<S>(zone.at);
+      const S within = campaign::exact<S>(zone.within), depth = campaign::exact<S>(zone.depth);
+      if (!(campaign::dot(from, from) > within * within) && -depth < result) result = -depth;
+    }
+    return result;
   }
 
   /// The least of all pairs.

@@ -196,6 +196,12 @@ TEST(CellProof, AgreesWithTheOracleForBodies) {
               150);
 }
 
+TEST(CellProof, AgreesWithTheOracleForBodiesThatMayTouchSomewhere) {
+  check_cells(with_zones(robot1_slice()), {.undecided_share = 0.1}, {kInside, kTension, kUnbalanced, kContact});
+  check_cells(with_zones(robot1_sigma_free()), {.undecided_share = 0.5, .most_cells = 100'000}, {kInside, kContact},
+              100);
+}
+
 TEST(CellProof, AgreesWithTheOracleForBodiesOfMachinesThatDeviate) {
   for (const bool length_controlled : {false, true}) {
     check_cells(with_bodies(robot1_with_tolerances(length_controlled)),
@@ -220,6 +226,18 @@ TEST(CellProof, TellsDeepContactInLargeCells) {
   });
   EXPECT_GT(largest, 1.0 / 300);
   EXPECT_LT(map.leaves(), 40'000U);
+}
+
+/// As above, but the block may be entered by less than it is entered.
+TEST(CellProof, TellsWhereBodiesAreDeeperThanTheyMayBe) {
+  Problem problem = robot1_slice();
+  BodiesText bodies;
+  bodies.platform = {box_body("stick", {"0.01", "0.01", "0.1"}, {"0", "0", "0.1"})};
+  bodies.obstacles = {box_body("block", {"0.2", "0.2", "0.1"}, {"0", "0", "0.45"})};
+  bodies.clearance_m[0] = "0";
+  bodies.contacts = {{{"block", "stick"}, {{"0", "0", "0"}, "10", "0.02"}}};
+  problem.bodies = bodies;
+  check_cells(problem, {.undecided_share = 0.1}, {kContact});
 }
 
 TEST(CellProof, RefusesMeshes) {

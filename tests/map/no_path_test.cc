@@ -99,6 +99,9 @@ TEST(OutsideCells, HoldNoPoseWhoseBodiesAreApart) {
   problem = with_bodies(robot1_sigma_free());
   for (Limits& limits : problem.robot.tension_N) limits = {"0", "1e9"};
   EXPECT_GT(hold_against_oracle(problem, 100, 7)[3], 20);
+  problem = with_zones(robot1_slice());
+  for (Limits& limits : problem.robot.tension_N) limits = {"0", "1e9"};
+  EXPECT_GT(hold_against_oracle(problem, 150, 8)[3], 20);
 }
 
 TEST(OutsideCells, HoldNoPoseWithAllLengthsWithinLimits) {

@@ -310,7 +310,18 @@ class BodyJudge {
   [[nodiscard]] double distance(double s, const Deviation& x, const ScenePair& pair) const {
     const auto pose = approx_->pose(s, x);
     if (!pose) return std::numeric_limits<double>::quiet_NaN();
-    return distance_of(approx_scene_->at(pair, approx_->machine(x), *pose));
+    const SolidPair<double> solids = approx_scene_->at(pair, approx_->machine(x), *pose);
+    return pair.zones.empty() ? distance_of(solids) : signed_distance_of(solids);
+  }
+  /// What the pair has to be farther apart than at s, which the machine as typed decides.
+  [[nodiscard]] double asked(double s, const ScenePair& pair) const {
+    if (pair.zones.empty()) return number<double>(pair.clearance);
+    const auto pose = approx_->pose(s, Deviation());
+    return pose ? required(pair, pose->p) : std::numeric_limits<double>::quiet_NaN();
+  }
+  [[nodiscard]] BigFloat exactly_asked(double s, const ScenePair& pair) const {
+    const auto pose = pair.zones.empty() ? std::nullopt : exact_->pose(BigFloat(s), Deviation());
+    return pose ? required(pair, pose->p) : number<BigFloat>(pair.clearance);
   }
   [[nodiscard]] Deviation worst_deviation(double s, const Deviation& x, const ScenePair& pair) const {
     return anchors_->tied(worst_deviations<1>(
@@ -326,8 +337,9 @@ class BodyJudge {
       for (std::size_t j = 0; j < 3; ++j) rounded.r[i][j] = to_double(exact->r[i][j]);
     }
     ++tally_.bodies.pairs;
-    return distance_of(exact_scene_->at(pair, exact_->machine(x), *exact),
-                       approx_scene_->at(pair, approx_->machine(x), rounded));
+    const SolidPair<BigFloat> solids = exact_scene_->at(pair, exact_->machine(x), *exact);
+    if (!pair.zones.empty()) return signed_distance_of(solids);
+    return distance_of(solids, approx_scene_->at(pair, approx_->machine(x), rounded));
   }
 
   /// s* and x* of the pair that decides.
@@ -348,9 +360,68 @@ class BodyJudge {
     return std::isfinite(distance(best_s_, worst_, target_));
   }
 
+  /// Lets the target touch, as deep as it is at (s*, x*) when the obstacle has been moved into the other body, more or
+  /// less δ; or only where p is nearer to a place than at s*, more or less δ, where it is as near as it is.
+  bool set_zone(BigFloat found) {
+    BodiesText& bodies = *trial_.problem.bodies;
+    const auto at_random = exact_->pose(BigFloat(uniform(random_, 0, 1)), Deviation());
+    if (!at_random) return false;
+    ContactZoneText zone;
+    for (std::size_t k = 0; k < 3; ++k) zone.at_m[k] = fmt::format("{:.9f}", to_double(at_random->p[k]));
+    zone.within_m = decimal(100 * trial_.size);
+    zone.depth_m = "1";
+    const std::array<std::string, 2> pair{bodies.platform[target_.first].name, bodies.obstacles[target_.second].name};
+    const auto set = [&] {
+      bodies.contacts = {{one_in(random_, 2) ? pair : std::array{pair[1], pair[0]}, zone}};
+      target_.zones = {zone};
+    };
+    set();
+    if (one_in(random_, 2)) {  // at the rim
+      const auto at_s = exact_->pose(BigFloat(best_s_), Deviation());
+      if (!at_s) return false;
+      BigFloat square(0.0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const BigFloat d = at_s->p[k] - number<BigFloat>(zone.at_m[k]);
+        square = square + d * d;
+      }
+      const BigFloat within = root(square) + BigFloat(violated_ ? -delta_ : delta_);
+      if (!(within > BigFloat(0.0))) return false;
+      zone.within_m = decimal(within);
+      zone.depth_m = decimal(trial_.size);
+      target_.clearance = decimal(found + BigFloat(0.1 * trial_.size));
+      bodies.clearance_m[static_cast<std::size_t>(target_.kind)] = target_.clearance;
+      for (auto* list : {&bodies.platform, &bodies.obstacles}) {
+        for (BodyText& body : *list) body.clearance_m.reset();
+      }
+      set();
+      return true;
+    }
+    const auto pose = approx_->pose(best_s_, worst_);
+    if (!pose) return false;
+    const auto solids = approx_scene_->at(target_, approx_->machine(worst_), *pose);
+    Vec<double> apart = solids[1].normal;
+    if (!solids[1].is_half_space) apart = nearest_features(solids[0].points, solids[1].points).apart;
+    const double deep =
+        to_double(found) + solids[0].radius + solids[1].radius + trial_.size * std::pow(10.0, uniform(random_, -4, -1));
+    apart = (deep / std::sqrt(dot(apart, apart))) * apart;
+    BodyText& body = bodies.obstacles[target_.second];
+    for (std::size_t k = 0; k < 3; ++k) {
+      body.at_m[k] = fmt::format("{:.15e}", number<double>(body.at_m[k]) + apart[k]);
+    }
+    approx_scene_.emplace(bodies);
+    exact_scene_.emplace(bodies);
+    const auto now = exact_distance(best_s_, worst_, target_);
+    if (!now) return false;
+    const BigFloat depth = BigFloat(violated_ ? -delta_ : delta_) - *now;
+    if (!(depth > BigFloat(0.0))) return false;
+    zone.depth_m = decimal(depth);
+    set();
+    return true;
+  }
+
   /// δ more or less than the pair has at (s*, x*), as the clearance of its class or as its own.
   bool set_clearance() {
-    const auto found = exact_distance(best_s_, worst_, target_);
+    auto found = exact_distance(best_s_, worst_, target_);
     if (!found) return false;
     BodiesText& bodies = *trial_.problem.bodies;
     if (known_) {
@@ -361,7 +432,12 @@ class BodyJudge {
       delta_ = trial_.size * std::pow(10.0, uniform(random_, -kDecades + decade_, -kDecades + decade_ + 1));
       violated_ = one_in(random_, 2) || !(BigFloat(delta_) < *found);
       const DecimalText clearance = decimal(*found + BigFloat(violated_ ? delta_ : -delta_));
-      if (one_in(random_, 2)) {
+      if (target_.kind == PairClass::kPlatformObstacles && one_in(random_, 2)) {
+        if (!set_zone(*found)) return false;
+        ++tally_.bodies.zones;
+        found = exact_distance(best_s_, worst_, target_);
+        if (!found) return false;
+      } else if (one_in(random_, 2)) {
         bodies.clearance_m[static_cast<std::size_t>(target_.kind)] = clearance;
         for (auto* list : {&bodies.platform, &bodies.obstacles}) {
           for (BodyText& body : *list) body.clearance_m.reset();
@@ -377,7 +453,7 @@ class BodyJudge {
     pairs_ = scene_pairs(bodies);
     clearances_.clear();
     for (const ScenePair& pair : pairs_) clearances_.push_back(number<double>(pair.clearance));
-    const auto own = number<BigFloat>(clearance_of(bodies, target_.kind, target_.first, target_.second));
+    const BigFloat own = exactly_asked(best_s_, pairs_[target_index()]);
     if ((*found > own) == violated_) {
       breach("the trial does not violate what it should, or does");
       return false;
@@ -392,9 +468,10 @@ class BodyJudge {
     ++tally_.looked_at;
     const auto found = exact_distance(s, x, pairs_[n]);
     if (!found) return breach(fmt::format("proved, but there is no pose {} (s {:.17g})", where, s));
-    if (!(*found > number<BigFloat>(pairs_[n].clearance))) {
+    const BigFloat least = exactly_asked(s, pairs_[n]);
+    if (!(*found > least)) {
       breach(fmt::format("proved, but pair {} of {} is too near by {:.3e} {} (s {:.17g})", n, pairs_.size(),
-                         to_double(number<BigFloat>(pairs_[n].clearance) - *found), where, s));
+                         to_double(least - *found), where, s));
     }
   }
 
@@ -410,7 +487,8 @@ class BodyJudge {
     for (std::size_t n = 0; n < pairs_.size(); ++n) {
       const auto solids = approx_scene_->at(pairs_[n], machine, *pose);
       if (rough_distance(solids) - clearances_[n] > least) continue;
-      const double margin = distance_of(solids) - clearances_[n];
+      const double margin = pairs_[n].zones.empty() ? distance_of(solids) - clearances_[n]
+                                                    : signed_distance_of(solids) - asked(s, pairs_[n]);
       if (!(margin > 1e-9 * trial_.size)) require_apart(s, x, n, "where floating point says little");
       if (margin < least) {
         least = margin;
@@ -422,7 +500,7 @@ class BodyJudge {
 
   /// Downhill from a point, in s and deviation.
   void descend(double s, Deviation x, std::size_t n, double width) {
-    const auto value = [&](double at) { return distance(at, x, pairs_[n]); };
+    const auto value = [&](double at) { return distance(at, x, pairs_[n]) - asked(at, pairs_[n]); };
     for (int round = 0; round < 2; ++round) {
       if (has_tolerances()) x = worst_deviation(s, x, pairs_[n]);
       const double found = golden_section(value, std::max(0.0, s - width), std::min(1.0, s + width));
@@ -460,7 +538,7 @@ class BodyJudge {
     descend(best_s_, worst_, target_index(), 1e-3);
     // The margin that is stated holds, too.
     const auto at_s = exact_distance(best_s_, worst_, target_);
-    const BigFloat margin = *at_s - number<BigFloat>(pairs_[target_index()].clearance);
+    const BigFloat margin = *at_s - exactly_asked(best_s_, pairs_[target_index()]);
     if (margin < BigFloat(proof.clearance_m)) breach("proved with a larger clearance than there is at s*");
   }
 
@@ -549,7 +627,7 @@ class BodyJudge {
       const Vec<BigFloat> v = x - point(solids[1], contact.points.second);
       apart = root(dot(v, v)) - solids[0].radius - solids[1].radius;
     }
-    if (apart > number<BigFloat>(pairs_[contact.pair].clearance)) breach("refuted by points that are clear");
+    if (apart > required(pairs_[contact.pair], at.pose.p)) breach("refuted by points that are clear");
   }
 
   /// The checker's kernel should confirm what is proved, and must not prove a box in which bodies touch, whatever the
@@ -593,7 +671,8 @@ class BodyJudge {
       Direction direction;
       const auto solids = approx_scene_->at(pair, approx_->machine(worst_), *pose);
       if (!solids[1].is_half_space) {
-        const Vec<double> u = nearest_features(solids[0].points, solids[1].points).apart;
+        const NearestFeatures<double> nearest = nearest_features(solids[0].points, solids[1].points);
+        const Vec<double> u = nearest.overlap ? depth_of(solids[0].points, solids[1].points).out : nearest.apart;
         const double largest = std::max({std::abs(u[0]), std::abs(u[1]), std::abs(u[2])});
         direction.u = {1, 0, 0};
         for (std::size_t k = 0; k < 3 && largest > 0; ++k) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "tests/soundness/machine.h"
+#include "tests/soundness/overlap.h"
 
 namespace taut::campaign {
 
@@ -35,6 +36,7 @@ struct ScenePair {
   PairClass kind;
   std::size_t first, second;
   DecimalText clearance;
+  std::vector<ContactZoneText> zones = {};
 };
 
 inline std::string name_of_first(const BodiesText& bodies, PairClass kind, std::size_t k) {
@@ -60,6 +62,28 @@ inline DecimalText clearance_of(const BodiesText& bodies, PairClass kind, std::s
   return greatest ? *greatest : *bodies.clearance_m[static_cast<std::size_t>(kind)];
 }
 
+inline std::vector<ContactZoneText> zones_of(const BodiesText& bodies, PairClass kind, std::size_t first,
+                                             std::size_t second) {
+  const std::string a = name_of_first(bodies, kind, first), b = name_of_second(bodies, kind, second);
+  std::vector<ContactZoneText> result;
+  for (const auto& [pair, zone] : bodies.contacts) {
+    if ((pair[0] == a && pair[1] == b) || (pair[0] == b && pair[1] == a)) result.push_back(zone);
+  }
+  return result;
+}
+
+/// What a pair has to be farther apart than, with the platform's origin at p.
+template <class S>
+S required(const ScenePair& pair, const Vec<S>& p) {
+  S result = number<S>(pair.clearance);
+  for (const ContactZoneText& zone : pair.zones) {
+    const Vec<S> from{p[0] - number<S>(zone.at_m[0]), p[1] - number<S>(zone.at_m[1]), p[2] - number<S>(zone.at_m[2])};
+    const S within = number<S>(zone.within_m), depth = number<S>(zone.depth_m);
+    if (!(dot(from, from) > within * within) && -depth < result) result = -depth;
+  }
+  return result;
+}
+
 /// In the order in which certificates count them.
 inline std::vector<ScenePair> scene_pairs(const BodiesText& bodies) {
   std::vector<ScenePair> result;
@@ -67,7 +91,7 @@ inline std::vector<ScenePair> scene_pairs(const BodiesText& bodies) {
     if (!bodies.clearance_m[static_cast<std::size_t>(kind)]) return;
     for (std::size_t i = 0; i < first; ++i) {
       for (std::size_t j = kind == PairClass::kCablesCables ? i + 1 : 0; j < second; ++j) {
-        result.push_back({kind, i, j, clearance_of(bodies, kind, i, j)});
+        result.push_back({kind, i, j, clearance_of(bodies, kind, i, j), zones_of(bodies, kind, i, j)});
       }
     }
   };
@@ -269,6 +293,16 @@ inline BigFloat distance_of(const SolidPair<BigFloat>& pair, const SolidPair<dou
     if (v && parts(*v, pair[0].points, pair[1].points)) return root(dot(*v, *v)) - pair[0].radius - pair[1].radius;
   }
   return distance_of<BigFloat>(pair);
+}
+
+/// The same, but minus how deep they are in each other where they overlap.
+template <class S>
+S signed_distance_of(const SolidPair<S>& pair) {
+  if (pair[1].is_half_space) return height_over(pair[0], pair[1]);
+  const NearestFeatures<S> nearest = nearest_features(pair[0].points, pair[1].points);
+  const S radii = pair[0].radius + pair[1].radius;
+  if (nearest.overlap) return -depth_of(pair[0].points, pair[1].points).size - radii;
+  return root(dot(nearest.apart, nearest.apart)) - radii;
 }
 
 /// No more than their distance, by balls around them.

@@ -97,7 +97,7 @@ void for_each_count(Tally& tally, const Visit& visit) {
   for (Count* count : {&tally.wrong, &tally.looked_at, &tally.violated_elsewhere, &tally.crossing,
                        &tally.crossing_refuted, &tally.surveyed, &tally.margins, &tally.margins_exact,
                        &tally.margins_compared, &tally.kernel_asked, &tally.kernel_proofs, &tally.kernel_confirmed,
-                       &tally.bodies.walls, &tally.bodies.walls_refuted, &tally.bodies.pairs}) {
+                       &tally.bodies.walls, &tally.bodies.walls_refuted, &tally.bodies.pairs, &tally.bodies.zones}) {
     visit(*count);
   }
 }
@@ -752,7 +752,8 @@ double print_bodies(const BodyTally& tally) {
                undecided.load());
   }
   fmt::print("{} paths through thin walls, {} of them refuted\n", tally.walls.load(), tally.walls_refuted.load());
-  fmt::print("{} distances in 200 bits\n", tally.pairs.load());
+  fmt::print("{} with a pair that may touch somewhere\n{} distances in 200 bits\n", tally.zones.load(),
+             tally.pairs.load());
   const double share =
       print_decades(tally.decades[0], "Bodies along paths of poses, without tolerances", "size", -kDecades, -9);
   print_decades(tally.decades[1], "Bodies along paths of cable lengths, without tolerances", "size", -kDecades, -9);
