@@ -141,13 +141,13 @@ class BodiesReader {
         "pair_clearances_m?", [&](const Cursor& pairs) { read_pair_clearances(pairs); }, "contacts?",
         [&](const Cursor& contacts) { read_contacts(contacts); });
     make_pairs();
-    for (std::size_t k = 0; k < own_.size(); ++k) {
-      json["pair_clearances_m"].at(k).require(own_[k].is_used, "two bodies that are a checked pair");
-    }
-    for (std::size_t k = 0; k < contacts_.size(); ++k) {
-      json["contacts"].at(k).require(contacts_[k].is_used,
-                                     "a body of the platform and an obstacle, no meshes, that are a checked pair");
-    }
+    const auto require_used = [&](const char* key, const auto& list, const char* expected) {
+      if (list.empty()) return;
+      const Cursor entries = json[key];
+      for (std::size_t k = 0; k < list.size(); ++k) entries.at(k).require(list[k].is_used, expected);
+    };
+    require_used("pair_clearances_m", own_, "two bodies that are a checked pair");
+    require_used("contacts", contacts_, "a body of the platform and an obstacle, no meshes, that are a checked pair");
   }
 
  private:

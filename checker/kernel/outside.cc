@@ -246,6 +246,8 @@ CellForm determinant(const Vector3<CellForm>& a, const Vector3<CellForm>& b, con
   return dot(a, cross(b, c));
 }
 
+Vector3<Ball> ranges(const Vector3<CellForm>& x) { return {x[0].range(), x[1].range(), x[2].range()}; }
+
 /// Whether a ball about 0 with this radius is certainly in the hull of these, everywhere; for no radius, whether 0 is.
 bool is_around_zero(const std::array<Vector3<CellForm>, 4>& v, const std::optional<Ball>& radius) {
   using Face = std::array<std::size_t, 3>;
@@ -254,7 +256,7 @@ bool is_around_zero(const std::array<Vector3<CellForm>, 4>& v, const std::option
   for (std::size_t k = 0; k < 4; ++k) {
     const auto& [a, b, c] = kFaces[k];
     shares[k] = determinant(v[a], v[b], v[c]).range();
-    if (radius) faces[k] = *radius * length_range(range(cross(v[b] - v[a], v[c] - v[a])));
+    if (radius) faces[k] = *radius * length_range(ranges(cross(v[b] - v[a], v[c] - v[a])));
   }
   const auto is_inside = [&](int side) {
     for (std::size_t k = 0; k < 4; ++k) {
@@ -305,7 +307,7 @@ bool OutsideProof::holds(const ContactReason& reason) const {
   const PlacedBodies& bodies = machine_.bodies.value();
   const CheckedPair& pair = bodies.pairs.at(reason.pair);
   const bool is_platform = pair.kind == PairKind::kPlatformObstacle;
-  Ball allowed = bodies.required_at_least(reason.pair, range(p_)) +
+  Ball allowed = bodies.required_at_least(reason.pair, ranges(p_)) +
                  (is_platform ? bodies.platform[pair.first].radius : bodies.cable_radius[pair.first]);
   if (is_platform || pair.kind == PairKind::kCableObstacle) {
     const auto& obstacle = bodies.obstacles[pair.second];

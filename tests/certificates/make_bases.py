@@ -875,8 +875,8 @@ BODIES = {
 CLASSES = ('platform-obstacles', 'cables-obstacles', 'cables-cables', 'cables-platform')
 
 
-def pairs_of(bodies):
-    """(class, first, second, clearance) of each pair."""
+def pairs_of(bodies, p=(0, 0, 0)):
+    """(class, first, second, clearance) of each pair; minus a depth, where the platform at p is in a zone."""
     platform, obstacles = bodies['platform'], bodies['obstacles']
     cables = [{'name': 'cable %d' % i} for i in range(1, 7)]
     own = {frozenset(entry['pair']): entry['clearance_m'] for entry in bodies.get('pair_clearances_m', [])}
@@ -892,7 +892,10 @@ def pairs_of(bodies):
                 stated = [float(x['clearance_m']) for x in (first, second) if 'clearance_m' in x]
                 clearance = own.get(frozenset((first['name'], second['name'])),
                                     max(stated) if stated else bodies['clearance_m'][kind])
-                result.append((kind, i, j, float(clearance)))
+                depths = [float(entry['depth_m']) for entry in bodies.get('contacts', [])
+                          if {first['name'], second['name']} == set(entry['pair']) and
+                          size(plus(p, [float(x) for x in entry['at_m']], -1)) <= float(entry['within_m'])]
+                result.append((kind, i, j, -max(depths) if depths else float(clearance)))
     return result
 
 
@@ -1021,15 +1024,16 @@ def nearest(first, second, steps=500):
     return v
 
 
-def clear(c, below=0.9, shift=None, samples=24):
-    """The certificate c with bodies in its problem: told apart along directions that are best in the middle."""
+def clear(c, below=0.9, shift=None, samples=24, along=()):
+    """The certificate c with bodies in its problem: told apart along directions that are best in the middle, or those
+    given for classes and indices of pairs; p is the same all along where a pair may touch."""
     pr, pa = c['problem'], c['path']
     c['version'] = 5
     pa['directions'] = []
-    pairs = pairs_of(pr['bodies'])
+    pairs = pairs_of(pr['bodies'], Scene(pr, frame(pr, parameters(pr, pa, 0, 0)), shift).p)
     for k, segment in enumerate(c['segments']):
         middle = Scene(pr, frame(pr, parameters(pr, pa, k, 0.5)), shift)
-        directions = [middle.direction(pair) for pair in pairs]
+        directions = [dict(along).get(pair[:3]) or middle.direction(pair) for pair in pairs]
         for u in directions:
             if u is not None and u not in pa['directions']:
                 pa['directions'].append(u)
@@ -1069,6 +1073,14 @@ def clearances():
     of_obstacles = with_bodies(near, clearance_m={'platform-obstacles': '0.01', 'cables-obstacles': '0.005'},
                                pair_clearances_m=BODIES['pair_clearances_m'][1:])
     yield 'clearance_of_obstacles', clear(proved(of_obstacles, copy.deepcopy(ends), below=0.98))
+    touching = with_bodies(
+        near, clearance_m={'platform-obstacles': '0.01'}, pair_clearances_m=BODIES['pair_clearances_m'][1:], contacts=[
+            {'pair': ['tool', 'stack'], 'at_m': ['0', '0.01', '0.35'], 'within_m': '0.02', 'depth_m': '0.03'},
+            {'pair': ['stack', 'plate'], 'at_m': ['0', '0', '0.3'], 'within_m': '0.06', 'depth_m': '0.05'},
+            {'pair': ['stack', 'plate'], 'at_m': ['0', '0', '0.3'], 'within_m': '0.07', 'depth_m': '0.01'}])
+    touching['bodies']['obstacles'][1]['at_m'] = ['0.108', '-0.035', '0.2025']
+    yield 'contacts', clear(proved(touching, copy.deepcopy(ends), below=0.98), along=[
+        (('platform-obstacles', 0, 1), ['W', -127, -69, 0]), (('platform-obstacles', 1, 1), ['W', -127, -55, 1])])
     yield 'clearance_tolerances', clear(tolerant(with_tolerances(near, **KINDS), copy.deepcopy(ends), below=0.9))
     held = with_tolerances(near, **LESS, cable_length_m=['0.000005'] * 6)
     yield 'clearance_held_by_lengths', clear(tolerant(held, copy.deepcopy(ends), below=0.85), shift=(0.0006, 0.003))
