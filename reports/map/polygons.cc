@@ -76,6 +76,7 @@ nlohmann::json feature_json(const MapResult& result, const FeatureKey& key, cons
 std::vector<std::string> meaning(const MapResult& result) {
   const bool has_tolerances = result.problem.tolerances.has_value();
   const bool has_bodies = result.problem.bodies.has_value();
+  const bool has_contacts = has_bodies && !result.problem.bodies->contacts.empty();
   std::vector<std::string> sentences = {
       std::string("Inside: at every pose of the closed cell, every load ") +
           (has_tolerances ? "and every deviation within the tolerances leave" : "leaves") +
@@ -88,6 +89,9 @@ std::vector<std::string> meaning(const MapResult& result) {
       "What is proved here is proved by taut, in interval arithmetic. No certificate states it, so taut-check has not "
       "confirmed it.",
   };
+  if (has_contacts) {
+    sentences.push_back("Where bodies may touch, minus the depth allowed takes the place of their clearance.");
+  }
   if (!result.region) return sentences;
   sentences.push_back(
       "Reachable: inside, and a motion from the start leads to every pose, all along which every pose "

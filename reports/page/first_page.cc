@@ -31,6 +31,7 @@ Html bodies_words(const BodiesText& bodies) {
   const auto list = [&](const char* where, const std::vector<BodyText>& all) {
     if (!all.empty()) text += html(" {}: <bdi>{}</bdi>.", where, body_names(all, kMostNames));
   };
+  if (!statement.contacts.empty()) text += html(" <b>{}</b>", with_minus_signs(statement.contacts));
   list("On the platform", bodies.platform);
   list("Obstacles", bodies.obstacles);
   if (!statement.cables.empty()) text += html(" {}", with_minus_signs(statement.cables));
@@ -164,8 +165,11 @@ std::string confirmed_text(const ReportContext& scene) {
       units.force.exact(truncated(margins.tension_N)), units.force.name(),
       units.length.exact(truncated(margins.length_m)), units.length.name(), margins.clearance_m ? "" : "and ",
       margins.clearance_m ? fmt::format(", and every checked pair of bodies is at least {} {} farther apart than its "
-                                        "clearance",
-                                        units.length.exact(truncated(*margins.clearance_m)), units.length.name())
+                                        "clearance{}",
+                                        units.length.exact(truncated(*margins.clearance_m)), units.length.name(),
+                                        scene.certificate.problem.bodies->contacts.empty()
+                                            ? ""
+                                            : " or, where it may touch, than minus the depth allowed")
                           : "");
 }
 

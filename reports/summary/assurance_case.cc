@@ -129,7 +129,9 @@ void add_proof(Builder& builder, const ReportContext& scene, const std::string& 
           "The boxes cover the path without gaps. Over each of them, every tension and every length is strictly "
           "inside its limits, {}the force Jacobian is not singular{}.",
           has_bodies ? "" : "and ",
-          has_bodies ? ", and the bodies of every checked pair are farther apart than their clearance" : ""),
+          has_bodies ? fmt::format(", and the bodies of every checked pair are farther apart than their clearance{}",
+                                   but_in_contacts(*certificate.problem.bodies))
+                     : ""),
       fmt::format("The boxes leave no gap; over each, tensions and lengths are inside their limits{} det J ≠ 0{}",
                   has_bodies ? "," : " and", has_bodies ? ", bodies apart" : ""));
   builder.support(by_boxes, each);
@@ -165,7 +167,10 @@ std::vector<AssuranceNode> assurance_case(const ReportContext& scene, const std:
       fmt::format("At every pose of the move, under every stated load{}, all six tensions and all six lengths are "
                   "strictly inside their limits, {}no singular pose is met{}.",
                   has_tolerances ? " and for every machine within the tolerances" : "", has_bodies ? "" : "and ",
-                  has_bodies ? ", and the bodies of every checked pair are farther apart than their clearance" : ""));
+                  has_bodies
+                      ? fmt::format(", and the bodies of every checked pair are farther apart than their clearance{}",
+                                    but_in_contacts(*scene.certificate.problem.bodies))
+                      : ""));
   builder.support(hazards, claim);
   add_scope(builder, scene, claim);
   add_proof(builder, scene, claim);

@@ -304,12 +304,17 @@ BodiesStatement bodies_statement(const BodiesText& bodies) {
         fmt::format("{} and {}: clearance {}", quoted_name(pair[0]), quoted_name(pair[1]), exact_length(clearance)));
   }
   for (const auto& [pair, zone] : bodies.contacts) {
-    result.notes.push_back(fmt::format(
-        "{} and {} may touch, and be up to {} deep in each other, while the platform's origin is within {} of {}",
-        quoted_name(pair[0]), quoted_name(pair[1]), exact_length(zone.depth_m), exact_length(zone.within_m),
-        exact_place(exact_point(zone.at_m))));
+    result.contacts +=
+        fmt::format("{}{} and {}, up to {} deep, while the platform's origin is within {} of {}",
+                    result.contacts.empty() ? "These may touch: " : "; ", quoted_name(pair[0]), quoted_name(pair[1]),
+                    exact_length(zone.depth_m), exact_length(zone.within_m), exact_place(exact_point(zone.at_m)));
   }
+  if (!result.contacts.empty()) result.contacts += ".";
   return result;
+}
+
+const char* but_in_contacts(const BodiesText& bodies) {
+  return bodies.contacts.empty() ? "" : ", but where they may touch";
 }
 
 BodiesStatement bodies_statement(const CaseBodies& bodies) {
@@ -328,7 +333,7 @@ BodiesStatement bodies_statement(const CaseBodies& bodies) {
 
 std::vector<std::string> lines(const BodiesStatement& statement) {
   std::vector<std::string> result;
-  for (const std::string& line : {statement.checked, statement.cables}) {
+  for (const std::string& line : {statement.checked, statement.contacts, statement.cables}) {
     if (!line.empty()) result.push_back(line);
   }
   for (const auto& [name, words] : statement.bodies) result.push_back(fmt::format("{}, {}.", quoted_name(name), words));

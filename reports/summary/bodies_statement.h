@@ -17,7 +17,8 @@ namespace taut {
 
 struct BodiesStatement {
   std::string checked;  ///< "Pairs and their clearances: platform and obstacles, 6 pairs, 200 mm; …. Not checked: …."
-  std::string cables;  ///< diameters and free ends; empty where no class with cables is checked
+  std::string cables;    ///< diameters and free ends; empty where no class with cables is checked
+  std::string contacts;  ///< which pairs may touch, where and how deep; empty where none may
   /// Name and words, bodies of the platform first: "stack", "obstacle: a box of 2.4 × 6.1 × 2.6 m at (0, 1, 1.3) m, …".
   std::vector<std::pair<std::string, std::string>> bodies;
   std::vector<std::string> notes;  ///< clearances of single pairs; of a case, what prisms add and what meshes are
@@ -28,6 +29,9 @@ struct BodiesStatement {
 
 /// The same of a case, which knows of cylinders and what is in meshes.
 [[nodiscard]] BodiesStatement bodies_statement(const CaseBodies& bodies);
+
+/// ", but where they may touch", or nothing where no pair may.
+[[nodiscard]] const char* but_in_contacts(const BodiesText& bodies);
 
 /// "'container' and 'stack'", "cable 3 and 'stack'", "cables 2 and 5".
 [[nodiscard]] std::string pair_words(const BodiesText& bodies, const BodyPair& pair);

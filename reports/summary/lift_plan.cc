@@ -87,10 +87,13 @@ LiftPlanItem clearances_item(const ReportContext& scene, const Summary& s) {
     item.open = "This report proves no clearances. All along the path. Lift planner.";
     return item;
   }
-  item.filled = joined(fmt::format("Every checked pair of bodies stays farther apart than its clearance, all along the "
-                                   "path. {}",
-                                   bodies_statement(*bodies).checked),
-                       numbers_of(s, "clearance"));
+  const BodiesStatement statement = bodies_statement(*bodies);
+  item.filled =
+      joined(fmt::format("All checked pairs of bodies stay farther apart than their clearances, all along the "
+                         "path{}. {}{}{}",
+                         but_in_contacts(*bodies), statement.checked, statement.contacts.empty() ? "" : " ",
+                         statement.contacts),
+             numbers_of(s, "clearance"));
   item.open = fmt::format("That the bodies are those of the site. {} Power lines. Lift planner.", rest);
   return item;
 }

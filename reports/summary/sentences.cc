@@ -396,7 +396,9 @@ std::string headline(const ReportContext& scene) {
         "length limit, {}no singular pose is met{}.",
         certificate.problem.tolerances ? " and every machine within the stated tolerances" : "",
         certificate.problem.bodies ? "" : "and ",
-        certificate.problem.bodies ? ", and all checked bodies keep their clearances" : "");
+        certificate.problem.bodies ? fmt::format(", and all checked bodies keep their clearances{}",
+                                                 but_in_contacts(*certificate.problem.bodies))
+                                   : "");
   }
   if (found_no_path(certificate)) {
     return "The planner found no path. That does not prove that there is none. Nothing is claimed.";

@@ -5,12 +5,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/input_error.h"
 #include "case/case_file.h"
+#include "certify/arithmetic/interval.h"
+#include "certify/arithmetic/rounding.h"
+#include "kinematics/bodies.h"
 
 namespace taut {
 namespace {
