@@ -35,6 +35,7 @@
 #include "cli/report_command.h"
 #include "cli/sensitivity_command.h"
 #include "cli/show_command.h"
+#include "cli/wrap_command.h"
 #include "reports/summary/explanations.h"
 
 namespace taut {
@@ -152,6 +153,8 @@ std::vector<Command> add_commands(CLI::App& app) {
   commands.push_back(add_command<MapArguments>(app, "map",
                                                "prove which poses are feasible, of two or three free coordinates",
                                                add_map_options, proving(ErrorCode::kCase, run_map)));
+  commands.push_back(add_command<WrapArguments>(app, "wrap", "write a closed mesh around one that is not closed",
+                                                add_wrap_options, with_error_code(ErrorCode::kCase, run_wrap)));
   commands.push_back(add_command<FormalArguments>(app, "formal",
                                                   "write a proved certificate as a theorem for Coq, and run Coq",
                                                   add_formal_options, proving(ErrorCode::kCertificate, run_formal)));
