@@ -240,7 +240,7 @@ std::vector<PairClass> checked_classes(const Map& map, const BodiesText& bodies,
     for (const PairClass kind : all_pair_classes()) {
       if (!missing_for(kind, bodies, has_cables)) checked.push_back(kind);
     }
-    if (checked.empty()) {
+    if (checked.empty() && !map.find("exit_cones")) {
       map.field().complain("got nothing that could touch, expected 'platform' and 'obstacles', or 'cables'");
     }
     return checked;
@@ -313,6 +313,40 @@ std::vector<ContactText> read_contacts(const Field& field, const Unit& length) {
   return result;
 }
 
+void read_exit_cone(const Field& field, const Unit& angle, std::vector<ExitConeText>& cones) {
+  constexpr const char* kCable = "a cable, 1 to 6, a list of cables, or all";
+  const Map map = field.map({"cable", "end", "axis", "half_angle"});
+  ExitConeText cone;
+  cone.end = read_choice<CableEnd>(map.at("end"), {{"base", CableEnd::kBase}, {"platform", CableEnd::kPlatform}});
+  const std::vector<Field> axis = map.at("axis").list(3, "a direction: a list of three numbers");
+  for (std::size_t k = 0; k < 3; ++k) cone.axis[k] = read_decimal(axis[k]).text();
+  cone.half_angle_rad = read_expression(map.at("half_angle"), angle, {});
+  const Field cable = map.at("cable");
+  const auto add = [&](const Field& of) {
+    const std::string number = of.text(kCable);
+    if (number.size() != 1 || number[0] < '1' || number[0] > '6') of.fail(kCable);
+    cone.cable = static_cast<std::size_t>(number[0] - '1');
+    cones.push_back(cone);
+  };
+  if (cable.node().IsSequence()) {
+    for (const Field& item : cable.list(kCable)) add(item);
+  } else if (cable.node().IsScalar() && cable.text(kCable) == "all") {
+    for (cone.cable = 0; cone.cable < kCables; ++cone.cable) cones.push_back(cone);
+  } else {
+    add(cable);
+  }
+}
+
+std::vector<ExitConeText> read_exit_cones(const Field& field, const Unit& angle) {
+  std::vector<ExitConeText> cones;
+  for (const Field& item : field.list("a list of exit cones such as "
+                                      "{cable: all, end: base, axis: [0, 0, -1], half_angle: 60 deg}")) {
+    read_exit_cone(item, angle, cones);
+  }
+  if (cones.empty()) field.complain("got no exit cone, expected one or more, or no 'exit_cones'");
+  return cones;
+}
+
 // --- Anchors inside of bodies --------------------------------------------------------------------------------------
 
 /// Refuses a cable that would always touch a body, since all points as far from its anchor as its free end is long are
@@ -343,7 +377,8 @@ void refuse_anchors_inside(const BodiesText& bodies, const RobotText& robot) {
 
 CaseBodies read_bodies(const Field& field, const Units& units, const std::filesystem::path& folder,
                        const RobotText& robot) {
-  const Map map = field.map({"clearance", "cables", "platform", "obstacles", "pairs", "pair_clearances", "contacts"});
+  const Map map =
+      field.map({"clearance", "cables", "platform", "obstacles", "pairs", "pair_clearances", "contacts", "exit_cones"});
   const Unit& length = units[Dimension::kLength];
   CaseBodies result;
   BodiesText& bodies = result.text;
@@ -352,9 +387,17 @@ CaseBodies read_bodies(const Field& field, const Units& units, const std::filesy
   if (const auto list = map.find("obstacles")) bodies.obstacles = reader.read_list(*list);
   const auto cables = map.find("cables");
   if (cables) bodies.cables = read_cables(*cables, length);
-  read_clearances(map, length, checked_classes(map, bodies, cables.has_value()), bodies);
+  const std::vector<PairClass> checked = checked_classes(map, bodies, cables.has_value());
+  if (!checked.empty()) {
+    read_clearances(map, length, checked, bodies);
+  } else if (const auto clearance = map.find("clearance")) {
+    clearance->complain("got a clearance of nothing that could touch, expected bodies, or exit cones alone");
+  }
   if (const auto list = map.find("pair_clearances")) bodies.pair_clearances_m = read_pair_clearances(*list, length);
   if (const auto list = map.find("contacts")) bodies.contacts = read_contacts(*list, length);
+  if (const auto list = map.find("exit_cones")) {
+    bodies.exit_cones = read_exit_cones(*list, units[Dimension::kAngle]);
+  }
   validate(bodies);
   refuse_anchors_inside(bodies, robot);
   return result;

@@ -50,6 +50,7 @@ std::string claim_of(Verdict verdict, const json& problem,
   if (checked) claim += checker::bodies_clause(is_proved, *checked);
   if (has_meshes(problem)) claim += checker::kMeshClause;
   if (checked && problem["bodies"].contains("contacts")) claim += checker::kContactZonesClause;
+  if (checked && problem["bodies"].contains("exit_cones")) claim += checker::kExitConesClause;
   return claim;
 }
 

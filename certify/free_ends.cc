@@ -92,7 +92,7 @@ class NearAnchors {
   /// The end of cables near which a pair's nearest points are, where its bodies are made fast to one another there.
   [[nodiscard]] std::optional<std::size_t> end_near(const RigidPose& pose, std::size_t n) const {
     const CheckedPair<double>& pair = bodies_.bodies().pairs[n];
-    if (pair.kind == PairClass::kPlatformObstacles) return std::nullopt;
+    if (pair.kind == PairClass::kPlatformObstacles || pair.kind == PairClass::kExitCones) return std::nullopt;
     const PointPair nearest = bodies_.nearest(sampler_.model(), pose, n);
     for (const std::size_t end : {kBase, kPlatform}) {
       if (!are_made_fast(pair, end) || !is_near(pose, pair.first, nearest.first, end)) continue;
@@ -108,7 +108,8 @@ class NearAnchors {
       case PairClass::kCablesObstacles: return end == kBase;
       case PairClass::kCablesPlatform: return end == kPlatform;
       case PairClass::kCablesCables: return end == kBase ? pair.shares_base : pair.shares_platform;
-      case PairClass::kPlatformObstacles: break;
+      case PairClass::kPlatformObstacles:
+      case PairClass::kExitCones: break;
     }
     return false;
   }

@@ -110,6 +110,14 @@ std::string stated_bodies(const std::string& certificate) {
           rounded(at.at(2)));
     }
   }
+  if (bodies.contains("exit_cones")) {
+    for (const Json& cone : bodies["exit_cones"]) {
+      text += fmt::format("; cable {} in a cone of half-angle {} rad around ({:.6g}, {:.6g}, {:.6g}) at the {}",
+                          cone.at("cable").get<int>(), cone.at("half_angle_rad").dump(-1, ' ', true),
+                          rounded(cone.at("axis").at(0)), rounded(cone["axis"].at(1)), rounded(cone["axis"].at(2)),
+                          cone.at("end").get<std::string>());
+    }
+  }
   return text;
 }
 

@@ -58,12 +58,20 @@ struct ContactZone {
   S depth;        ///< > 0 [m]
 };
 
+/// An exit cone (problem/bodies.h).
+template <class S>
+struct ExitCone {
+  CableEnd end;
+  Vector3<S> axis;  ///< of length 1
+  S sine, cosine;   ///< of the half-angle
+};
+
 /// Two bodies that have to stay farther apart than `clearance`, but in zones of contact (problem/bodies.h).
 template <class S>
 struct CheckedPair {
   PairClass kind;
   std::size_t first;   ///< a platform body or a cable
-  std::size_t second;  ///< an obstacle, a cable or a platform body
+  std::size_t second;  ///< an obstacle, a cable, a platform body or an exit cone
   S clearance;         ///< [m]
   /// Of two cables: whether they are typed with the same anchor and the same tolerance of it, hence hang from one
   /// point.
@@ -89,8 +97,15 @@ struct BodyModel {
   std::array<S, kCables> cable_radius;               ///< [m]
   std::array<std::array<S, 2>, kCables> cable_free;  ///< free ends at base and platform [m]
   std::array<std::array<bool, 2>, kCables> is_cut;   ///< whether they are not exactly 0
+  std::vector<ExitCone<S>> exit_cones;
   std::vector<CheckedPair<S>> pairs;
 };
+
+/// Of an exit cone: |d| sin(half-angle − t), how far the other end of the cable is inside, where d is the vector to it
+/// from the cable's anchor here, in the cone's axes, and t the angle between d and the cone's axis. It changes by no
+/// more than d does. @param S  any of the cone's scalar's, or forms in it
+template <class S, class C>
+[[nodiscard]] S distance_in_cone(const ExitCone<C>& cone, const std::array<S, 3>& d);
 
 /// At working_precision(); for Interval under run_upward(). @throws InputError for a mesh that was not read
 /// @pre problem.bodies

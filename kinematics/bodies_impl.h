@@ -106,6 +106,15 @@ Vector3<S> PlacedMesh<S>::place(const std::array<double, 3>& f) const {
   return bodies_detail::placed_point<S>(at, turn, {unit * S(f[0]), unit * S(f[1]), unit * S(f[2])});
 }
 
+template <class S, class C>
+S distance_in_cone(const ExitCone<C>& cone, const std::array<S, 3>& d) {
+  const Vector3<C>& n = cone.axis;
+  const S along = d[0] * n(0) + d[1] * n(1) + d[2] * n(2);
+  const S across =
+      euclidean_norm(S(d[1] * n(2) - d[2] * n(1)), S(d[2] * n(0) - d[0] * n(2)), S(d[0] * n(1) - d[1] * n(0)));
+  return along * cone.sine - across * cone.cosine;
+}
+
 template <class S>
 RequiredDistance<S> required_distance(const CheckedPair<S>& pair, const Vector3<S>& p) {
   RequiredDistance<S> result{pair.clearance, pair.clearance};
@@ -135,6 +144,14 @@ BodyModel<S> make_body_model(const Problem& problem) {
       model.cable_free[i][end] = ScalarTraits<S>::from_decimal(free);
       model.is_cut[i][end] = Decimal::parse(free).sign() != 0;
     }
+  }
+  for (const ExitConeText& cone : text.exit_cones) {
+    const Vector3<S> axis = vector<S>(cone.axis);
+    const S size = euclidean_norm(axis(0), axis(1), axis(2));
+    model.exit_cones.push_back({cone.end,
+                                {axis(0) / size, axis(1) / size, axis(2) / size},
+                                evaluate_constant<S>("sin(" + cone.half_angle_rad + ")"),
+                                evaluate_constant<S>("cos(" + cone.half_angle_rad + ")")});
   }
   const auto is_one = [&](const auto& anchors, const std::array<DecimalText, kCables>* tolerances, std::size_t i,
                           std::size_t j) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -66,6 +67,22 @@ BodyText read_body(const JsonCursor& value) {
     body.shape = MeshText{content.at("file").text(), content.at("sha256").text(), content.at("unit_m").text()};
   }
   return body;
+}
+
+std::vector<ExitConeText> read_exit_cones(const JsonCursor& value) {
+  std::vector<ExitConeText> cones;
+  for (const JsonCursor& entry : value.elements()) {
+    entry.expect_keys({"cable", "end", "axis", "half_angle_rad"});
+    ExitConeText& cone = cones.emplace_back();
+    cone.cable = static_cast<std::size_t>(entry.at("cable").integer(1, kCables)) - 1;
+    const std::string end = entry.at("end").text();
+    if (end != "base" && end != "platform") entry.at("end").fail("base or platform");
+    cone.end = end == "base" ? CableEnd::kBase : CableEnd::kPlatform;
+    cone.axis = read_texts<3>(entry.at("axis"));
+    cone.half_angle_rad = entry.at("half_angle_rad").text();
+  }
+  if (cones.empty()) value.fail("at least one exit cone");
+  return cones;
 }
 
 // --- Writing -----------------------------------------------------------------------------------------------------
@@ -139,18 +156,20 @@ void validate_hull(const std::string& where, const HullText& hull) {
   validate_not_negative(where + ".radius", hull.radius_m, "radius");
 }
 
-void validate_half_space(const std::string& where, const BodyText& body, const HalfSpaceText& half_space) {
-  validate_point(where + ".normal", half_space.normal);
-  // So that its length is a binary64 number and not 0, as for the axis of a space.
+/// A direction whose length is a binary64 number and not 0, as for the axis of a space.
+void validate_direction(const std::string& where, const PointText& direction) {
+  validate_point(where, direction);
   const auto is_below = [](const DecimalText& text, const char* limit) {
     return boost::multiprecision::abs(Decimal::parse(text).rational()) < Decimal::parse(limit).rational();
   };
-  const auto& normal = half_space.normal;
-  const bool is_small = std::ranges::all_of(normal, [&](const DecimalText& x) { return is_below(x, "1e-9"); });
-  if (is_small || !std::ranges::all_of(normal, [&](const DecimalText& x) { return is_below(x, "1e9"); })) {
-    throw FieldError(where + ".normal", fmt::format("[{}]", fmt::join(normal, ", ")),
-                     "expected a direction: three numbers, the largest of which is at least 1e-9 and below 1e9");
-  }
+  const bool is_small = std::ranges::all_of(direction, [&](const DecimalText& x) { return is_below(x, "1e-9"); });
+  if (!is_small && std::ranges::all_of(direction, [&](const DecimalText& x) { return is_below(x, "1e9"); })) return;
+  throw FieldError(where, fmt::format("[{}]", fmt::join(direction, ", ")),
+                   "expected a direction: three numbers, the largest of which is at least 1e-9 and below 1e9");
+}
+
+void validate_half_space(const std::string& where, const BodyText& body, const HalfSpaceText& half_space) {
+  validate_direction(where + ".normal", half_space.normal);
   if (body.rotation_rad != kNoRotation) {
     throw FieldError(where + ".rotation", "a rotation of a half-space",
                      "expected none: its normal says where it faces");
@@ -220,6 +239,33 @@ void validate_cables(const CableBodiesText& cables) {
     for (std::size_t end = 0; end < 2; ++end) {
       validate_not_negative(fmt::format("bodies.cables.free_ends[{}][{}]", i, end), cables.free_ends_m[i][end],
                             "length");
+    }
+  }
+}
+
+void validate_exit_cones(const std::vector<ExitConeText>& cones) {
+  std::set<std::pair<std::size_t, CableEnd>> seen;
+  for (std::size_t k = 0; k < cones.size(); ++k) {
+    const ExitConeText& cone = cones[k];
+    const std::string where = fmt::format("bodies.exit_cones[{}]", k);
+    if (cone.cable >= kCables) {
+      throw FieldError(where + ".cable", fmt::format("{}", cone.cable + 1), "expected a cable, 1 to 6");
+    }
+    if (!seen.emplace(cone.cable, cone.end).second) {
+      throw FieldError(where, fmt::format("a second exit cone of cable {} at the {}", cone.cable + 1, name(cone.end)),
+                       "expected at most one");
+    }
+    validate_direction(where + ".axis", cone.axis);
+    double value = 0;
+    try {
+      value = evaluate_constant<double>(cone.half_angle_rad);
+    } catch (const InputError& error) {
+      throw FieldError(where + ".half_angle", "", error.what());
+    }
+    // Approximate, to tell mistakes; a proof needs a proper angle only.
+    if (!(value > 0 && value < std::numbers::pi / 2)) {
+      throw FieldError(where + ".half_angle", "'" + excerpt(cone.half_angle_rad) + "'",
+                       "expected an angle above 0 and below 90 deg");
     }
   }
 }
@@ -365,6 +411,9 @@ class PairList {
         add(PairClass::kCablesPlatform, i, j, nullptr, &bodies_.platform[j]);
       }
     }
+    for (std::size_t k = 0; k < bodies_.exit_cones.size(); ++k) {
+      pairs_.push_back({PairClass::kExitCones, bodies_.exit_cones[k].cable, k, "0"});
+    }
     return std::move(pairs_);
   }
 
@@ -400,10 +449,13 @@ const char* name(PairClass kind) {
     case PairClass::kPlatformObstacles: return "platform-obstacles";
     case PairClass::kCablesObstacles: return "cables-obstacles";
     case PairClass::kCablesCables: return "cables-cables";
-    case PairClass::kCablesPlatform: break;
+    case PairClass::kCablesPlatform: return "cables-platform";
+    case PairClass::kExitCones: break;
   }
-  return "cables-platform";
+  return "exit-cones";
 }
+
+const char* name(CableEnd end) { return end == CableEnd::kBase ? "base" : "platform"; }
 
 std::string cable_name(std::size_t i) { return fmt::format("cable {}", i + 1); }
 
@@ -413,9 +465,10 @@ std::array<std::string, 2> names(const BodiesText& bodies, const BodyPair& pair)
       return {bodies.platform.at(pair.first).name, bodies.obstacles.at(pair.second).name};
     case PairClass::kCablesObstacles: return {cable_name(pair.first), bodies.obstacles.at(pair.second).name};
     case PairClass::kCablesCables: return {cable_name(pair.first), cable_name(pair.second)};
-    case PairClass::kCablesPlatform: break;
+    case PairClass::kCablesPlatform: return {cable_name(pair.first), bodies.platform.at(pair.second).name};
+    case PairClass::kExitCones: break;
   }
-  return {cable_name(pair.first), bodies.platform.at(pair.second).name};
+  return {cable_name(pair.first), fmt::format("exit cone at the {}", name(bodies.exit_cones.at(pair.second).end))};
 }
 
 std::string name(const BodiesText& bodies, const BodyPair& pair) {
@@ -440,6 +493,7 @@ void validate(const BodiesText& bodies) {
   }
   static_cast<void>(clearances_of_pairs(bodies));
   static_cast<void>(zones_of_pairs(bodies));
+  validate_exit_cones(bodies.exit_cones);
 }
 
 bool are_meshes_read(const BodiesText& bodies) {
@@ -466,12 +520,18 @@ json to_json(const BodiesText& bodies) {
     result["contacts"].push_back(
         {{"pair", pair}, {"at_m", zone.at_m}, {"within_m", zone.within_m}, {"depth_m", zone.depth_m}});
   }
+  for (const ExitConeText& cone : bodies.exit_cones) {
+    result["exit_cones"].push_back({{"cable", cone.cable + 1},
+                                    {"end", name(cone.end)},
+                                    {"axis", cone.axis},
+                                    {"half_angle_rad", cone.half_angle_rad}});
+  }
   return result;
 }
 
 BodiesText bodies_from_json(const JsonCursor& value) {
   std::vector<std::string> keys = {"platform", "obstacles", "cables", "clearance_m"};
-  for (const char* optional : {"pair_clearances_m", "contacts"}) {
+  for (const char* optional : {"pair_clearances_m", "contacts", "exit_cones"}) {
     if (value.contains(optional)) keys.emplace_back(optional);
   }
   value.expect_keys(keys);
@@ -507,6 +567,7 @@ BodiesText bodies_from_json(const JsonCursor& value) {
     bodies.contacts.push_back(
         {std::move(pair), {read_texts<3>(entry.at("at_m")), entry.at("within_m").text(), entry.at("depth_m").text()}});
   });
+  if (value.contains("exit_cones")) bodies.exit_cones = read_exit_cones(value.at("exit_cones"));
   return bodies;
 }
 

@@ -72,13 +72,19 @@ struct CableBodiesText {
   bool operator==(const CableBodiesText&) const = default;
 };
 
-enum class PairClass { kPlatformObstacles, kCablesObstacles, kCablesCables, kCablesPlatform };
-inline constexpr std::size_t kPairClasses = 4;
+enum class PairClass {
+  kPlatformObstacles,
+  kCablesObstacles,
+  kCablesCables,
+  kCablesPlatform,
+  kExitCones,  ///< a cable and an exit cone of its own; not one of those that have clearances
+};
+inline constexpr std::size_t kPairClasses = 4;  ///< that have clearances
 [[nodiscard]] constexpr std::array<PairClass, kPairClasses> all_pair_classes() {
   using enum PairClass;
   return {kPlatformObstacles, kCablesObstacles, kCablesCables, kCablesPlatform};
 }
-/// "platform-obstacles", "cables-obstacles", "cables-cables", "cables-platform".
+/// "platform-obstacles", "cables-obstacles", "cables-cables", "cables-platform", "exit-cones".
 [[nodiscard]] const char* name(PairClass kind);
 
 /// The clearance of one pair, in place of any other.
@@ -102,6 +108,21 @@ struct ContactText {
   bool operator==(const ContactText&) const = default;
 };
 
+enum class CableEnd { kBase, kPlatform };
+[[nodiscard]] const char* name(CableEnd end);  ///< "base" or "platform"
+
+/// Where the other end of a cable has to be as seen from this one, such as from a sheave that swivels so far only: the
+/// vector d from the cable's anchor here to its other anchor makes an angle t with the axis that is less than the
+/// half-angle a. The distance of this pair is |d| sin(a − t), that of the other anchor from the cone's surface; its
+/// clearance is 0.
+struct ExitConeText {
+  std::size_t cable = 0;           ///< 0 to 5
+  CableEnd end = CableEnd::kBase;  ///< at most one cone of each end
+  PointText axis;                  ///< of any length but 0, out of this end: of W at the base, of P at the platform
+  ExpressionText half_angle_rad;   ///< a constant, above 0 and below pi/2
+  bool operator==(const ExitConeText&) const = default;
+};
+
 inline constexpr std::size_t kMaxContacts = 64;
 inline constexpr std::size_t kMaxBodies = 64;  ///< of the platform, and as many obstacles
 inline constexpr std::size_t kMaxHullPoints = 1000;
@@ -114,6 +135,7 @@ struct BodiesText {
   std::array<std::optional<DecimalText>, kPairClasses> clearance_m;
   std::vector<PairClearanceText> pair_clearances_m;  ///< of pairs that are checked, each at most once
   std::vector<ContactText> contacts;                 ///< of pairs that are checked; at most kMaxContacts
+  std::vector<ExitConeText> exit_cones;              ///< all are checked
   bool operator==(const BodiesText&) const = default;
 };
 
@@ -123,13 +145,14 @@ struct BodiesText {
 struct BodyPair {
   PairClass kind = PairClass::kPlatformObstacles;
   std::size_t first = 0;   ///< index of a platform body (kPlatformObstacles) or of a cable
-  std::size_t second = 0;  ///< index of an obstacle, a cable (> first) or a platform body
+  std::size_t second = 0;  ///< index of an obstacle, a cable (> first), a platform body or an exit cone
   DecimalText clearance_m;
   std::vector<ContactZoneText> zones = {};
   bool operator==(const BodyPair&) const = default;
 };
 
-/// The pairs that are checked, class by class, the first body's index in the outer loop; certificates count them so.
+/// The pairs that are checked, class by class, the first body's index in the outer loop, and then the exit cones in
+/// their order; certificates count them so.
 /// The clearance of a pair is its entry of `pair_clearances_m` if it has one, else the greatest of its two bodies' own
 /// if one has any, else that of its class. @pre validate(bodies)
 [[nodiscard]] std::vector<BodyPair> pairs(const BodiesText& bodies);
@@ -138,7 +161,8 @@ struct BodyPair {
 [[nodiscard]] std::string cable_name(std::size_t i);
 /// The names of the pair's first and second body.
 [[nodiscard]] std::array<std::string, 2> names(const BodiesText& bodies, const BodyPair& pair);
-/// "container / stack", "cable 3 / stack", "cable 2 / cable 5", "cable 3 / container".
+/// "container / stack", "cable 3 / stack", "cable 2 / cable 5", "cable 3 / container", "cable 3 / exit cone at the
+/// base".
 [[nodiscard]] std::string name(const BodiesText& bodies, const BodyPair& pair);
 
 /// Checks all that the types above promise, and that pairs with a clearance or a zone of their own exist and are
@@ -149,7 +173,8 @@ void validate(const BodiesText& bodies);
 [[nodiscard]] bool are_meshes_read(const BodiesText& bodies);
 
 /// The member `bodies` of a problem: "platform" and "obstacles", lists of bodies, "cables", "clearance_m", an object
-/// with a member for each class that is checked, and, unless there are none, "pair_clearances_m" and "contacts".
+/// with a member for each class that is checked, and, unless there are none, "pair_clearances_m", "contacts" and
+/// "exit_cones".
 [[nodiscard]] nlohmann::json to_json(const BodiesText& bodies);
 /// Inverse of to_json, without validating. @throws FieldError
 [[nodiscard]] BodiesText bodies_from_json(const JsonCursor& value);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "certify/bodies/body_gaps.h"
 
+#include <limits>
 #include <stdexcept>
 
 #include "certify/bodies/body_gaps_detail.h"
@@ -154,6 +155,28 @@ RequiredDistance<I> BodyGaps<I, Slope>::required(const CheckedPair<I>& pair, boo
 }
 
 template <class I, class Slope>
+SlopeForm<I, Slope> BodyGaps<I, Slope>::in_cone(const CheckedPair<I>& pair) const {
+  const ExitCone<I>& cone = box_.bodies.exit_cones[pair.second];
+  const Vector3<I>& b = box_.model.p_PB[pair.first];
+  std::array<Form, 3> d;  // in W, from A to B
+  for (int k = 0; k < 3; ++k) {
+    d[static_cast<std::size_t>(k)] = box_.p_WP(k) - Form(box_.model.p_WA[pair.first](k)) + box_.r_WP(k, 0) * b(0) +
+                                     box_.r_WP(k, 1) * b(1) + box_.r_WP(k, 2) * b(2);
+  }
+  if (cone.end == CableEnd::kPlatform) {
+    const std::array<Form, 3> in_world = d;
+    for (int k = 0; k < 3; ++k) {
+      d[static_cast<std::size_t>(k)] =
+          -(box_.r_WP(0, k) * in_world[0] + box_.r_WP(1, k) * in_world[1] + box_.r_WP(2, k) * in_world[2]);
+    }
+  }
+  for (Form& x : d) x.tighten(box_.offset);
+  Form result = distance_in_cone<Form>(cone, d);
+  result.tighten(box_.offset);
+  return result;
+}
+
+template <class I, class Slope>
 I BodyGaps<I, Slope>::radii(const CheckedPair<I>& pair) const {
   const I first = pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].radius
                                                              : box_.bodies.cable_radius[pair.first];
@@ -164,6 +187,7 @@ I BodyGaps<I, Slope>::radii(const CheckedPair<I>& pair) const {
 
 template <class I, class Slope>
 double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& direction) const {
+  if (pair.kind == PairClass::kExitCones) return -std::numeric_limits<double>::infinity();  // along() is quick
   const bool in_platform = is_in_platform(pair, direction);
   const std::array<I, 3> u = vector(pair, direction);
   std::array<I, 3> other;
@@ -212,6 +236,12 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& di
 
 template <class I, class Slope>
 GapBound<I, Slope> BodyGaps<I, Slope>::along(const CheckedPair<I>& pair, const Direction& direction) const {
+  if (pair.kind == PairClass::kExitCones) {
+    const bool is_at_platform = box_.bodies.exit_cones[pair.second].end == CableEnd::kPlatform;
+    const std::array<Upper, 2> shifts = end_shifts(pair, pair.first, is_at_platform);
+    const Form value = in_cone(pair);
+    return {value, value.range + ProofScalarTraits<I>::symmetric(shifts[0] + shifts[1])};
+  }
   const auto* half = half_space(box_.bodies, pair);
   const bool in_platform = is_in_platform(pair, direction);
   const std::array<I, 3> u = vector(pair, direction);
@@ -315,6 +345,10 @@ I BodyGaps<I, Slope>::distance(const CheckedPair<I>& pair, const PointPair& shar
     x.tighten(box_.offset);
     return only_at_mid ? x.at_mid : x.range;
   };
+  if (pair.kind == PairClass::kExitCones) {
+    const Form value = in_cone(pair);
+    return only_at_mid ? value.at_mid : value.range;
+  }
   const Vector3<Form> a = mean(points(pair, true, shares.elements[0]), shares.first);
   const I near = radii(pair) + required(pair, only_at_mid).at_least;
   if (const auto* half = half_space(box_.bodies, pair)) {

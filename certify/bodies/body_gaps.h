@@ -177,6 +177,8 @@ class BodyGaps {
   /// The sum of shares times points.
   [[nodiscard]] static Vector3<Form> mean(const std::vector<Vector3<Form>>& points,
                                           const std::vector<std::int64_t>& shares);
+  /// Of an exit cone: how far the cable's other end is inside of it.
+  [[nodiscard]] Form in_cone(const CheckedPair<I>& pair) const;
   /// Of the pair on T, or at m.
   [[nodiscard]] RequiredDistance<I> required(const CheckedPair<I>& pair, bool only_at_mid) const;
   /// The sum of both bodies' radii.

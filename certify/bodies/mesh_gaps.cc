@@ -159,7 +159,10 @@ const PlacedMesh<I>* BodyGaps<I, Slope>::mesh(const CheckedPair<I>& pair, bool i
   if (is_first) {
     return pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].mesh.get() : nullptr;
   }
-  if (pair.kind == PairClass::kCablesCables || half_space(box_.bodies, pair) != nullptr) return nullptr;
+  if (pair.kind == PairClass::kCablesCables || pair.kind == PairClass::kExitCones ||
+      half_space(box_.bodies, pair) != nullptr) {
+    return nullptr;
+  }
   return second_hull(box_.bodies, pair).mesh.get();
 }
 

@@ -194,6 +194,14 @@ std::vector<Point> cable_ends(const BodyModel<double>& bodies, const Model<doubl
   return {a + bodies.cable_free[i][0] * along, b - bodies.cable_free[i][1] * along};
 }
 
+double distance_in_cone(const BodyModel<double>& bodies, const Model<double>& model, const RigidPose& pose,
+                        const CheckedPair<double>& pair) {
+  const ExitCone<double>& cone = bodies.exit_cones[pair.second];
+  Point d = pose.p + pose.q * model.p_PB[pair.first] - model.p_WA[pair.first];
+  if (cone.end == CableEnd::kPlatform) d = -(pose.q.conjugate() * d);
+  return taut::distance_in_cone<double>(cone, {d(0), d(1), d(2)});
+}
+
 std::vector<Point> carried(const ConvexBody<double>& body, const RigidPose& pose) {
   const Matrix3<double> r = pose.q.toRotationMatrix();
   std::vector<Point> points;
@@ -268,7 +276,8 @@ const HalfSpace<double>* BodySampler::half_space(const CheckedPair<double>& pair
 
 bool BodySampler::needs_list(std::size_t n) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
-  if (pair.kind == PairClass::kCablesCables || half_space(pair) != nullptr) return false;
+  if (pair.kind == PairClass::kCablesCables || pair.kind == PairClass::kExitCones || half_space(pair) != nullptr)
+    return false;
   const auto is_mesh = [](const ConvexBody<double>& body) { return body.mesh != nullptr; };
   if (pair.kind == PairClass::kCablesPlatform) return is_mesh(bodies_.platform[pair.second]);
   return is_mesh(std::get<ConvexBody<double>>(bodies_.obstacles[pair.second])) ||
@@ -319,8 +328,13 @@ std::array<BodyInFrame, 2> BodySampler::in_world(const Model<double>& model, con
 
 BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
-  const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
   Found found;
+  if (pair.kind == PairClass::kExitCones) {
+    found.is_half_space = true;
+    found.nearest.distance = distance_in_cone(bodies_, model, pose, pair);
+    return found;
+  }
+  const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
   found.needed = required_distance(pair, pose.p).at_most + (pair.kind == PairClass::kPlatformObstacles
                                                                 ? bodies_.platform[pair.first].radius
                                                                 : bodies_.cable_radius[pair.first]);
@@ -342,6 +356,7 @@ BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose
   switch (pair.kind) {
     case PairClass::kCablesCables: found.needed += bodies_.cable_radius[pair.second]; break;
     case PairClass::kCablesPlatform: found.needed += bodies_.platform[pair.second].radius; break;
+    case PairClass::kExitCones: break;
     case PairClass::kPlatformObstacles:
     case PairClass::kCablesObstacles:
       found.needed += std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]).radius;
@@ -482,7 +497,7 @@ BodySampler::Sketch BodySampler::sketch(const Model<double>& model, const RigidP
 /// Of a half-space, its gap is not looked for.
 BodySampler::RoughDirection BodySampler::rough_direction(const Sketch& at, std::size_t n) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
-  if (half_space(pair) != nullptr) return {};
+  if (half_space(pair) != nullptr || pair.kind == PairClass::kExitCones) return {};
   Line first, second;
   double needed = pair.clearance;
   if (pair.kind == PairClass::kPlatformObstacles) {
@@ -529,7 +544,7 @@ PairDirections BodySampler::first_directions(const Model<double>& model, const R
     const RoughDirection rough = rough_direction(at, n);
     Direction chosen = rough.direction;
     const bool has_list = needs_list(n);
-    if (!(rough.gap > moved) && !has_list && half_space(bodies_.pairs[n]) == nullptr) {
+    if (!(rough.gap > moved) && !has_list && !is_of_half_space(chosen)) {
       chosen = direction(model, middle, n, Direction::kFine, ends).value_or(chosen);
     }
     result.single.push_back(chosen);
@@ -662,6 +677,11 @@ double BodySampler::lost(const Model<double>& model, const RigidPose& pose, std:
     // What is nearest to it on the obstacle may be nearer to the platform's origin.
     return of.position + of.turn * std::max(0.0, nearest.norm() - std::abs(found.nearest.distance));
   }
+  if (pair.kind == PairClass::kExitCones) {
+    const bool is_at_platform = bodies_.exit_cones[pair.second].end == CableEnd::kPlatform;
+    const double lever = is_at_platform ? (model.p_WA[pair.first] - pose.p).norm() : model.p_PB[pair.first].norm();
+    return of.base[pair.first] + of.anchor[pair.first] + of.position + of.turn * lever;
+  }
   std::array<double, 2> moved{0, 0};  // in W, in P
   const auto add_cable = [&](std::size_t i, const std::vector<double>& shares) {
     if (shares.size() != 2) return;
@@ -698,7 +718,8 @@ bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Ca
   const double most = most_lost(model, pose);
   for (std::size_t n = 0; n < bodies_.pairs.size(); ++n) {
     std::optional<Carried::Gap>& last = carried.pairs[n];
-    if (last && bodies_.pairs[n].zones.empty()) {  // what is required of others changes
+    const bool is_carried = bodies_.pairs[n].zones.empty() && bodies_.pairs[n].kind != PairClass::kExitCones;
+    if (last && is_carried) {
       const double bodies_moving = bodies_.pairs[n].kind == PairClass::kCablesCables ? 2 : 1;
       const double moved =
           bodies_moving * ((pose.p - last->pose.p).norm() + pose.q.angularDistance(last->pose.q) * reach_);

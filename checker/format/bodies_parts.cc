@@ -139,7 +139,8 @@ class BodiesReader {
         "platform", list(false, bodies_.platform, platform_), "obstacles", list(true, bodies_.obstacles, obstacles_),
         "cables", [&](const Cursor& cables) { read_cables(cables, bodies_.cables); }, "clearance_m", read_classes,
         "pair_clearances_m?", [&](const Cursor& pairs) { read_pair_clearances(pairs); }, "contacts?",
-        [&](const Cursor& contacts) { read_contacts(contacts); });
+        [&](const Cursor& contacts) { read_contacts(contacts); }, "exit_cones?",
+        [&](const Cursor& cones) { read_exit_cones(cones); });
     make_pairs();
     const auto require_used = [&](const char* key, const auto& list, const char* expected) {
       if (list.empty()) return;
@@ -192,6 +193,28 @@ class BodiesReader {
     });
   }
 
+  void read_exit_cones(const Cursor& json) {
+    static constexpr std::array<std::pair<const char*, Axes>, 2> kEnds = {
+        {{"base", Axes::kWorld}, {"platform", Axes::kPlatform}}};
+    json.require(json.size() > 0, "exit cones, or no such key");
+    json.elements([&](const Cursor& here, std::size_t) {
+      ExitCone cone;
+      here.object(
+          "cable", integer(cone.cable, 1, kCables), "end",
+          [&](const Cursor& end) { cone.end = end.one_of<Axes>(kEnds, "base or platform"); }, "axis", cone.axis,
+          "half_angle_rad",
+          [&](const Cursor& angle) { cone.half_angle = parse_expression(angle.text(), {}, angle.where()); });
+      --cone.cable;
+      const bool is_zero = std::ranges::all_of(cone.axis, [](const mpq_class& x) { return x == 0; });
+      here["axis"].require(!is_zero, "a vector that is not 0");
+      const bool is_taken = std::ranges::any_of(bodies_.exit_cones, [&](const ExitCone& other) {
+        return other.cable == cone.cable && other.end == cone.end;
+      });
+      here.require(!is_taken, "one exit cone of a cable's end");
+      bodies_.exit_cones.push_back(std::move(cone));
+    });
+  }
+
   /// Class by class, the first body in the outer loop.
   void make_pairs() {
     static const BodyLabel kNone;
@@ -208,6 +231,12 @@ class BodiesReader {
     add_all(PairKind::kCableObstacle, cables, obstacles_);
     add_all(PairKind::kCableCable, cables, cables);
     add_all(PairKind::kCablePlatform, cables, platform_);
+    for (std::size_t k = 0; k < bodies_.exit_cones.size(); ++k) {
+      const ExitCone& cone = bodies_.exit_cones[k];
+      bodies_.pairs.push_back(
+          {PairKind::kExitCone, cone.cable, k, 0,
+           cable_name(cone.cable) + " / exit cone at the " + (cone.end == Axes::kWorld ? "base" : "platform")});
+    }
   }
 
   void add(PairKind kind, std::size_t i, const BodyLabel& first, std::size_t j, const BodyLabel& second) {
@@ -255,6 +284,7 @@ std::array<std::size_t, 2> weights_of(const Bodies& bodies, const CheckedPair& p
     case PairKind::kCableObstacle: return {2, points_of(bodies.obstacles[pair.second])};
     case PairKind::kCableCable: return {2, 2};
     case PairKind::kCablePlatform: return {2, points_of(bodies.platform[pair.second])};
+    case PairKind::kExitCone: return {0, 0};
   }
   throw std::logic_error("a pair of no known kind");
 }
@@ -279,8 +309,9 @@ void append_direction(const Cursor& json, Path& path) {
 std::vector<std::size_t> read_apart(const Cursor& json, std::size_t pair, const Problem& problem, const Path& path) {
   const Bodies& bodies = problem.bodies.value();
   const CheckedPair& of = bodies.pairs.at(pair);
-  if (bodies.is_against_half_space(of)) {
-    json.require(json.is_null(), "null, as one body is a half-space");
+  const bool is_cone = of.kind == PairKind::kExitCone;
+  if (is_cone || bodies.is_against_half_space(of)) {
+    json.require(json.is_null(), is_cone ? "null of an exit cone" : "null, as one body is a half-space");
     return {};
   }
   std::vector<std::size_t> result;

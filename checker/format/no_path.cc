@@ -148,7 +148,8 @@ ContactReason read_contact(const Cursor& json, const Problem& problem) {
     result.pair = static_cast<std::size_t>(pair.integer(0, static_cast<std::int64_t>(bodies.pairs.size()) - 1));
   };
   const auto read_points = [&](const Cursor& points) {
-    const bool may_be_four = !bodies.is_against_half_space(bodies.pairs[result.pair]);
+    const CheckedPair& of = bodies.pairs[result.pair];
+    const bool may_be_four = of.kind != PairKind::kExitCone && !bodies.is_against_half_space(of);
     points.require(points.size() == 1 || (may_be_four && points.size() == 4),
                    may_be_four ? "the points of one or four places" : "the points of one place");
     points.elements([&](const Cursor& weights, std::size_t) {
@@ -189,6 +190,7 @@ std::string no_path_claim(const Problem& problem) {
   if (!problem.items.empty()) claim += kItemsClause;
   if (problem.bodies) claim += no_path_bodies_clause(problem.bodies->checks);
   if (problem.bodies && problem.bodies->has_zones()) claim += kContactZonesClause;
+  if (problem.bodies && !problem.bodies->exit_cones.empty()) claim += kExitConesClause;
   return claim;
 }
 

@@ -219,6 +219,7 @@ class Reader {
       claim += bodies_clause(result_.verdict == Verdict::kProved, result_.problem.bodies->checks);
       if (result_.problem.bodies->has_meshes()) claim += kMeshClause;
       if (result_.problem.bodies->has_zones()) claim += kContactZonesClause;
+      if (!result_.problem.bodies->exit_cones.empty()) claim += kExitConesClause;
     }
     exactly(claim, "the text that belongs to the verdict")(top_["claim"]);
   }

@@ -30,10 +30,22 @@ PlacedHalfSpace placed(const HalfSpaceShape& half_space, const RigidBody& body) 
   return {balls(half_space.normal), Ball(dot(half_space.normal, body.at))};
 }
 
+PlacedExitCone placed(const ExitCone& cone) {
+  const Ball angle = cone.half_angle.evaluate<MeanValueForm>({}).range();
+  if (!certainly_positive(angle) || !certainly_positive(half(Ball::pi()) - angle)) {
+    throw Undefined("the half-angle of an exit cone may not be above 0 and below a right angle");
+  }
+  const Vector3<Ball> axis = balls(cone.axis);
+  const MeanValueForm form(angle);
+  return {cone.end, (Ball(1) / sqrt(squared_norm(axis))) * axis, apply(Function::kSin, form).range(),
+          apply(Function::kCos, form).range()};
+}
+
 }  // namespace
 
 PlacedBodies::PlacedBodies(const Problem& problem) {
   const Bodies& bodies = problem.bodies.value();
+  for (const ExitCone& cone : bodies.exit_cones) exit_cones.push_back(placed(cone));
   for (const RigidBody& body : bodies.platform) {
     const auto* const mesh = std::get_if<MeshShape>(&body.shape);
     platform.push_back(mesh != nullptr ? placed(*mesh, body) : placed(std::get<HullShape>(body.shape), body));

@@ -42,15 +42,21 @@ struct PlacedZone {
   Ball depth;
 };
 
+struct PlacedExitCone {
+  Axes end;
+  Vector3<Ball> axis;  ///< of length 1
+  Ball sine, cosine;   ///< of the half-angle
+};
+
 struct PlacedBodies {
-  /// Computes at the working precision. @throws Undefined where a rotation has no value, and for a mesh that nobody
-  /// read.
+  /// Computes at the working precision. @throws Undefined where a rotation has no value, for a half-angle that may
+  /// not be above 0 and below a right angle, and for a mesh that nobody read.
   explicit PlacedBodies(const Problem& problem);
 
   /// The first or the second body of a pair; null where it is a cable or a half-space.
   [[nodiscard]] const PlacedHull* hull(const CheckedPair& pair, bool is_first) const {
     if (is_first) return pair.kind == PairKind::kPlatformObstacle ? &platform[pair.first] : nullptr;
-    if (pair.kind == PairKind::kCableCable) return nullptr;
+    if (pair.kind == PairKind::kCableCable || pair.kind == PairKind::kExitCone) return nullptr;
     return pair.kind == PairKind::kCablePlatform ? &platform[pair.second]
                                                  : std::get_if<PlacedHull>(&obstacles[pair.second]);
   }
@@ -69,6 +75,7 @@ struct PlacedBodies {
   std::vector<std::variant<PlacedHull, PlacedHalfSpace>> obstacles;
   std::array<Ball, kCables> cable_radius;              ///< [m]
   std::array<std::array<Ball, 2>, kCables> free_ends;  ///< at base and platform [m]
+  std::vector<PlacedExitCone> exit_cones;
   std::vector<CheckedPair> pairs;
   std::vector<Ball> clearance;                 ///< of each pair [m]
   std::vector<std::vector<PlacedZone>> zones;  ///< of each pair

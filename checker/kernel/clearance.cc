@@ -24,6 +24,18 @@ const MeanValueForm& require_longer(const Machine& machine, const Geometry& geom
   return geometry.length[i];
 }
 
+/// (2).
+Ball distance_in_cone(const Geometry& geometry, std::size_t i, const PlacedExitCone& cone) {
+  Vector3<MeanValueForm> d = geometry.d[i];
+  if (cone.end == Axes::kPlatform) {
+    d = multiply(transposed(geometry.pose.R), d);
+    for (MeanValueForm& x : d) x = -x;
+  }
+  const Vector3<MeanValueForm> n = {MeanValueForm(cone.axis[0]), MeanValueForm(cone.axis[1]),
+                                    MeanValueForm(cone.axis[2])};
+  return (cone.sine * dot(cone.axis, d) - cone.cosine * norm(cross(d, n))).range();
+}
+
 /// u, of which products are to be divided by |u|.
 struct Along {
   Axes axes;
@@ -62,6 +74,7 @@ class Clearances {
   /// (1), of pair k.
   [[nodiscard]] Ball distance(std::size_t k) {
     const auto& [kind, first, second, clearance, name, zones] = bodies_.pairs[k];
+    if (kind == PairKind::kExitCone) return in_cone(first, bodies_.exit_cones[second]);
     if (kind == PairKind::kCableCable) return between_cables(first, second, along(k, std::nullopt));
     if (kind == PairKind::kCablePlatform) {
       Along& u = along(k, Axes::kPlatform);
@@ -78,6 +91,13 @@ class Clearances {
     const auto& half_space = std::get<PlacedHalfSpace>(bodies_.obstacles[second]);
     Along n = along(Axes::kWorld, half_space.normal);
     return from_obstacle(n, half_space.offset / n.size);
+  }
+
+  /// (2), with what deviations take.
+  [[nodiscard]] Ball in_cone(std::size_t i, const PlacedExitCone& cone) {
+    (void)require_longer(machine_, geometry_, i, highest(loss_.length[i]));
+    const EndShift& shift = end_shift(i, cone.end);
+    return lowest(distance_in_cone(geometry_, i, cone)) - shift.base - shift.platform;
   }
 
   /// That of pair k, of which one body is a mesh or both.
@@ -380,6 +400,10 @@ Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t
                    const ContactElements& elements) {
   const PlacedBodies& bodies = machine.bodies.value();
   const auto& [kind, first, second, clearance, name, zones] = bodies.pairs.at(pair);
+  if (kind == PairKind::kExitCone) {
+    (void)require_longer(machine, geometry, first, Ball());
+    return -distance_in_cone(geometry, first, bodies.exit_cones[second]);
+  }
   const bool is_platform = kind == PairKind::kPlatformObstacle;
   const ContactPoint a = is_platform ? of_platform(bodies.platform[first], geometry, weights[0], elements[0])
                                      : of_cable(machine, geometry, first, weights[0]);

@@ -37,6 +37,12 @@
 // which deviates by one vector. Their distance stays the same if both are moved back by that vector. So with the bounds
 // x for A' and y_1, y_2 for the two B', 0 for A' and x + y_1, x + y_2 for B' will do, too; and likewise for platform
 // anchors. The larger of what these prove is proved.
+//
+// Exit cones.  Let d be the vector from a cable's anchor at one end to its other anchor, in W at the base, in P at the
+// platform, n a unit vector and a in (0, pi/2). Where t is the angle between d and n,
+//     |d| sin(a - t) = sin(a) n . d - cos(a) |d x n|,                                                               (2)
+// as |d| cos t = n . d and |d| sin t = |d x n|. (n . d, |d x n|) moves by no more than d does, and (2) by no more than
+// that, since sin^2 + cos^2 = 1. d moves by no more than the sum of what its ends do in these axes, as above.
 #pragma once
 
 #include <optional>

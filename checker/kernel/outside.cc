@@ -303,9 +303,22 @@ Vector3<CellForm> OutsideProof::second_point(const CheckedPair& pair, const Cont
   return {CellForm(x[0]), CellForm(x[1]), CellForm(x[2])};
 }
 
+bool OutsideProof::is_out_of_cone(std::size_t i, const PlacedExitCone& cone) const {
+  if (!certainly_positive(squared_[i].range())) throw Undefined("a cable may have no length");
+  Point d = d_[i];
+  if (cone.end == Axes::kPlatform) {
+    d = multiply(transposed(R_), d);
+    for (CellForm& x : d) x = -x;
+  }
+  const Point n = {CellForm(cone.axis[0]), CellForm(cone.axis[1]), CellForm(cone.axis[2])};
+  const Ball along = cone.sine * dot(cone.axis, d).range();
+  return certainly_nonnegative(cone.cosine * length_range(ranges(cross(d, n))) - along);
+}
+
 bool OutsideProof::holds(const ContactReason& reason) const {
   const PlacedBodies& bodies = machine_.bodies.value();
   const CheckedPair& pair = bodies.pairs.at(reason.pair);
+  if (pair.kind == PairKind::kExitCone) return is_out_of_cone(pair.first, bodies.exit_cones[pair.second]);
   const bool is_platform = pair.kind == PairKind::kPlatformObstacle;
   Ball allowed = bodies.required_at_least(reason.pair, ranges(p_)) +
                  (is_platform ? bodies.platform[pair.first].radius : bodies.cable_radius[pair.first]);

@@ -26,7 +26,8 @@
 //              for all vectors, 0 is in the hull if these four coefficients are positive, or if all are negative. The
 //              size of each, divided by that of the normal (b - a) x (c - a) of the three vectors in it, is the
 //              distance of 0 from their plane. Where the bodies may overlap, none of the four is less than
-//              -c - both radii: then no translation that is shorter than -c tells the bodies apart.
+//              -c - both radii: then no translation that is shorter than -c tells the bodies apart. Of a cable and an
+//              exit cone nothing but the pair: (2) of clearance.h is not positive at any pose.
 #pragma once
 
 #include <span>
@@ -95,6 +96,8 @@ class OutsideProof {
   /// x_k of (2), and y_k unless it is of a half-space.
   [[nodiscard]] Point first_point(const CheckedPair& pair, const ContactWeights& weights) const;
   [[nodiscard]] Point second_point(const CheckedPair& pair, const ContactWeights& weights) const;
+  /// Claim, if true: at every pose of the cell this cable is not inside of the cone.
+  [[nodiscard]] bool is_out_of_cone(std::size_t i, const PlacedExitCone& cone) const;
   [[nodiscard]] bool is_beyond_length(std::size_t cable, std::size_t side) const;
   [[nodiscard]] bool is_unbalanced(const OutsideReason& reason);
   void set_columns();

@@ -138,6 +138,15 @@ enum class PairKind {
   kCableObstacle,
   kCableCable,
   kCablePlatform,  ///< a cable and a body of the platform
+  kExitCone,       ///< a cable and an exit cone of its own
+};
+/// Of a cable's end: |d| sin(half_angle - t) is the distance of such a pair, where d is the vector from the cable's
+/// anchor at this end to its other anchor, and t the angle between d and the axis.
+struct ExitCone {
+  std::size_t cable = 0;
+  Axes end = Axes::kWorld;  ///< W: the base's end, with an axis in W; P: the platform's, in P
+  ExactVector axis;         ///< not 0
+  Expression half_angle;    ///< a constant
 };
 /// Where bodies may overlap by less than `depth`: with the platform's origin no farther than `within` from `at` [m].
 struct ContactZone {
@@ -149,7 +158,7 @@ struct ContactZone {
 struct CheckedPair {
   PairKind kind = PairKind::kPlatformObstacle;
   std::size_t first = 0;
-  std::size_t second = 0;
+  std::size_t second = 0;  ///< of kExitCone, an index of `exit_cones`
   mpq_class clearance;
   std::string name{};                ///< "cable 3 / stack"
   std::vector<ContactZone> zones{};  ///< of bodies of the platform and obstacles that are no meshes
@@ -159,13 +168,14 @@ struct Bodies {
   std::vector<RigidBody> platform;
   std::vector<RigidBody> obstacles;
   std::array<CableBody, kCables> cables;
-  std::array<bool, 4> checks{};    ///< by PairKind: whether its pairs are checked
-  std::vector<CheckedPair> pairs;  ///< by rising kind; of one kind by first, then by second body
+  std::array<bool, 4> checks{};  ///< by PairKind: whether its pairs are checked
+  std::vector<ExitCone> exit_cones;
+  std::vector<CheckedPair> pairs;  ///< by rising kind; of one kind by first, then by second body; of cones as stated
 
   /// The first or the second body of a pair; null where it is a cable.
   [[nodiscard]] const RigidBody* rigid(const CheckedPair& pair, bool is_first) const {
     if (is_first) return pair.kind == PairKind::kPlatformObstacle ? &platform[pair.first] : nullptr;
-    if (pair.kind == PairKind::kCableCable) return nullptr;
+    if (pair.kind == PairKind::kCableCable || pair.kind == PairKind::kExitCone) return nullptr;
     return pair.kind == PairKind::kCablePlatform ? &platform[pair.second] : &obstacles[pair.second];
   }
   /// The first or the second body of a pair, if it is a mesh; else null.

@@ -34,7 +34,9 @@ Html bodies_words(const BodiesText& bodies) {
   if (!statement.contacts.empty()) text += html(" <b>{}</b>", with_minus_signs(statement.contacts));
   list("On the platform", bodies.platform);
   list("Obstacles", bodies.obstacles);
-  if (!statement.cables.empty()) text += html(" {}", with_minus_signs(statement.cables));
+  for (const std::string& words : {statement.cables, statement.exit_cones}) {
+    if (!words.empty()) text += html(" {}", with_minus_signs(words));
+  }
   const std::vector<std::string> open = bodies_without_inside(bodies);
   if (!open.empty()) {
     text += html(" <b>Only the surface is checked, not what is inside, of <bdi>{}</bdi>: not a closed mesh.</b>",
@@ -73,13 +75,15 @@ Html scope(const ReportContext& scene, const Summary& s) {
 Html collisions(const ReportContext& scene) {
   const std::optional<BodiesText>& bodies = scene.certificate.problem.bodies;
   if (!bodies || pairs(*bodies).empty()) return html("Collisions: <b>not checked</b>");
-  const std::string count = plural(pairs(*bodies).size(), "pair");
+  const std::size_t cones = bodies->exit_cones.size();
+  const std::string count = plural(pairs(*bodies).size() - cones, "pair");
   const Html checked = scene.verdict == "proved" ? html("Collisions: {} of bodies <b>✓</b>", count)
                                                  : html("Collisions: {} of bodies looked at", count);
   std::string others;
   for (const PairClass kind : unchecked_classes(*bodies))
     others += (others.empty() ? "" : ", ") + std::string(words_of(kind));
-  return others.empty() ? checked : checked + html("; <b>not checked</b>: {}", others);
+  const Html all = others.empty() ? checked : checked + html("; <b>not checked</b>: {}", others);
+  return cones == 0 ? all : all + html("; {}", plural(cones, "exit cone"));
 }
 
 /// What stands beside the verdict: the second program, the machine, collisions.

@@ -172,9 +172,9 @@ std::string clearance_text(const DecimalText& of_class, const std::vector<BodyPa
 }
 
 std::string checked_text(const BodiesText& bodies) {
-  std::array<std::size_t, kPairClasses> counts{};
+  std::array<std::size_t, kPairClasses + 1> counts{};  // exit cones last
   const std::vector<BodyPair> all = pairs(bodies);
-  for (const BodyPair& pair : all) ++counts[static_cast<std::size_t>(pair.kind)];
+  for (const BodyPair& pair : all) ++counts.at(static_cast<std::size_t>(pair.kind));
   std::vector<std::string> checked, others;
   for (const PairClass kind : all_pair_classes()) {
     const auto k = static_cast<std::size_t>(kind);
@@ -206,6 +206,17 @@ std::string cables_text(const BodiesText& bodies) {
   }
   for (std::size_t i = 0; i < kCables; ++i) each[i] = fmt::format("{}: {}", i + 1, each[i]);
   return fmt::format("Cables: {}.", fmt::join(each, "; "));
+}
+
+/// "Exit cones: cable 1 at the base, 60° around (0, 0, -1); …." Angles are rounded.
+std::string exit_cones_text(const std::vector<ExitConeText>& cones) {
+  std::string text;
+  for (const ExitConeText& cone : cones) {
+    text += fmt::format("{}{} at the {}, {:.6g}° around {}", text.empty() ? "Exit cones, in half-angles: " : "; ",
+                        cable_name(cone.cable), name(cone.end), degrees(evaluate_constant<double>(cone.half_angle_rad)),
+                        normal_text(cone.axis));
+  }
+  return text.empty() ? text : text + ".";
 }
 
 /// What was repaired, and whether there is an inside.
@@ -256,9 +267,10 @@ const char* words_of(PairClass kind) {
     case PairClass::kPlatformObstacles: return "platform and obstacles";
     case PairClass::kCablesObstacles: return "cables and obstacles";
     case PairClass::kCablesCables: return "cables among each other";
-    case PairClass::kCablesPlatform: break;
+    case PairClass::kCablesPlatform: return "cables and platform";
+    case PairClass::kExitCones: break;
   }
-  return "cables and platform";
+  return "cables and their exit cones";
 }
 
 bool has_no_inside(const BodyText& body) {
@@ -290,6 +302,7 @@ std::string pair_words(const BodiesText& bodies, const BodyPair& pair) {
   if (pair.kind == PairClass::kPlatformObstacles) {
     return fmt::format("{} and {}", quoted_name(first), quoted_name(second));
   }
+  if (pair.kind == PairClass::kExitCones) return fmt::format("{} and its {}", first, second);
   return fmt::format("{} and {}", first, quoted_name(second));
 }
 
@@ -310,6 +323,7 @@ BodiesStatement bodies_statement(const BodiesText& bodies) {
                     exact_length(zone.depth_m), exact_length(zone.within_m), exact_place(exact_point(zone.at_m)));
   }
   if (!result.contacts.empty()) result.contacts += ".";
+  result.exit_cones = exit_cones_text(bodies.exit_cones);
   return result;
 }
 
@@ -333,7 +347,7 @@ BodiesStatement bodies_statement(const CaseBodies& bodies) {
 
 std::vector<std::string> lines(const BodiesStatement& statement) {
   std::vector<std::string> result;
-  for (const std::string& line : {statement.checked, statement.contacts, statement.cables}) {
+  for (const std::string& line : {statement.checked, statement.contacts, statement.cables, statement.exit_cones}) {
     if (!line.empty()) result.push_back(line);
   }
   for (const auto& [name, words] : statement.bodies) result.push_back(fmt::format("{}, {}.", quoted_name(name), words));
@@ -342,8 +356,8 @@ std::vector<std::string> lines(const BodiesStatement& statement) {
 }
 
 nlohmann::json to_json(const BodiesText& bodies, const BodiesStatement& statement) {
-  std::array<std::size_t, kPairClasses> counts{};
-  for (const BodyPair& pair : pairs(bodies)) ++counts[static_cast<std::size_t>(pair.kind)];
+  std::array<std::size_t, kPairClasses + 1> counts{};  // exit cones last
+  for (const BodyPair& pair : pairs(bodies)) ++counts.at(static_cast<std::size_t>(pair.kind));
   nlohmann::json checked = nlohmann::json::array();
   nlohmann::json not_checked = nlohmann::json::array();
   for (const PairClass kind : all_pair_classes()) {

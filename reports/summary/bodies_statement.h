@@ -17,8 +17,9 @@ namespace taut {
 
 struct BodiesStatement {
   std::string checked;  ///< "Pairs and their clearances: platform and obstacles, 6 pairs, 200 mm; …. Not checked: …."
-  std::string cables;    ///< diameters and free ends; empty where no class with cables is checked
-  std::string contacts;  ///< which pairs may touch, where and how deep; empty where none may
+  std::string cables;      ///< diameters and free ends; empty where no class with cables is checked
+  std::string contacts;    ///< which pairs may touch, where and how deep; empty where none may
+  std::string exit_cones;  ///< where cables may leave their ends; empty where that is not stated
   /// Name and words, bodies of the platform first: "stack", "obstacle: a box of 2.4 × 6.1 × 2.6 m at (0, 1, 1.3) m, …".
   std::vector<std::pair<std::string, std::string>> bodies;
   std::vector<std::string> notes;  ///< clearances of single pairs; of a case, what prisms add and what meshes are

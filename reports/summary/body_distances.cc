@@ -83,6 +83,7 @@ std::array<BodyDistances::Placed, 2> BodyDistances::placed(const Model<double>& 
     return {points_of(hull, 1), hull.radius};
   };
   switch (pair.kind) {
+    case PairClass::kExitCones: return {cable(pair.first), {}};
     case PairClass::kPlatformObstacles: break;
     case PairClass::kCablesObstacles: return {cable(pair.first), fixed(bodies.obstacles[pair.second])};
     case PairClass::kCablesCables: return {cable(pair.first), cable(pair.second)};
@@ -122,9 +123,16 @@ BodyInFrame in_frame(const BodyModel<double>& bodies, const CheckedPair<double>&
 }  // namespace
 
 BodyDistance BodyDistances::at(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
-  auto [first, second] = placed(model, pose, n);
-  const CheckedPair<double>& pair = bodies_.bodies().pairs[n];
+  const CheckedPair<double>& pair = bodies_.bodies().pairs.at(n);
   BodyDistance result{n, 0, required_distance(pair, pose.p).at_most};
+  if (pair.kind == PairClass::kExitCones) {
+    result.distance = bodies_.gap(model, pose, n);
+    result.is_in_cone = true;
+    const bool is_at_base = bodies_.bodies().exit_cones[pair.second].end == CableEnd::kBase;
+    result.at.fill(is_at_base ? model.p_WA[pair.first] : Point(pose.p + pose.q * model.p_PB[pair.first]));
+    return result;
+  }
+  auto [first, second] = placed(model, pose, n);
   const BodyInFrame a = in_frame(bodies_.bodies(), pair, true, pose, first.points);
   const BodyInFrame b = in_frame(bodies_.bodies(), pair, false, pose, second.points);
   bool is_inside = false;
@@ -205,7 +213,8 @@ DistancesAlong distances_along(const BodyDistances& distances, const Sampler& sa
     for (const std::size_t n : order) {
       Known& last = known[n];
       // A pair that was farther apart than it can have come nearer since is not the one.
-      const bool is_out = last.is_measured && bodies.pairs[n].zones.empty() && least &&
+      const bool is_out = last.is_measured && bodies.pairs[n].zones.empty() &&
+                          bodies.pairs[n].kind != PairClass::kExitCones && least &&
                           last.left - moved(bodies.pairs[n], last.pose, pose, reach) > least->left();
       if (is_out) continue;
       const BodyDistance now = distances.at(sampler.model(), pose, n);

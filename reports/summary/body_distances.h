@@ -18,7 +18,8 @@ struct BodyDistance {
   std::size_t pair = 0;  ///< in the order of pairs() of problem/bodies.h
   /// Between the two surfaces; where the bodies overlap, minus about how far one has to be moved until they don't [m].
   double distance = 0;
-  double clearance = 0;  ///< asked there; where the pair may touch, minus the depth allowed [m]
+  double clearance = 0;     ///< asked there; where the pair may touch, minus the depth allowed [m]
+  bool is_in_cone = false;  ///< of a cable and an exit cone: how far the cable's other end is inside of it
   /// A point of either body, in W: the nearest ones, or one of both where they overlap [m].
   std::array<Vector3<double>, 2> at{Vector3<double>::Zero(), Vector3<double>::Zero()};
 

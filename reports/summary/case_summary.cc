@@ -182,14 +182,15 @@ std::string bodies_text(const CaseSummary& summary, const WaypointSummary& waypo
                                                  fmt::format("left [{}]", length.name()), ""}};
   const std::vector<BodyPair> all = pairs(*summary.source.problem.bodies);
   for (const BodyDistance& pair : waypoint.nearest) {
-    const bool is_in = pair.distance < 0;
+    const bool is_in = pair.distance < 0 && !pair.is_in_cone;
     rows.push_back({summary.bodies->name(pair.pair), is_in ? "–" : fmt::format("{:.4g}", length.approx(pair.distance)),
                     length.exact(asked_exactly(pair, all.at(pair.pair))),
                     fmt::format("{:.4g}", length.approx(pair.left())),
                     pair.clearance < 0 && pair.left() > 0 ? fmt::format("may touch, {}", apart_text(pair, length))
                     : is_in                               ? fmt::format("in contact, {}", apart_text(pair, length))
-                    : pair.left() > 0                     ? ""
-                                                          : "nearer than the clearance"});
+                    : pair.is_in_cone ? (pair.left() > 0 ? "inside of the cone" : "outside of the cone")
+                    : pair.left() > 0 ? ""
+                                      : "nearer than the clearance"});
   }
   const std::size_t others = summary.bodies->pairs() - waypoint.nearest.size();
   return columns(rows) + (others == 0 ? ""

@@ -295,11 +295,16 @@ std::string bodies_text(const Problem& problem) {
 std::string apart_text(const BodyDistance& distance, const DisplayUnit& unit) {
   constexpr int kDigits = 3;
   const std::string size = unit.nearest(std::abs(distance.distance), kDigits);
+  if (distance.is_in_cone) {
+    return fmt::format("about {} {} {} its surface", size, unit.name(),
+                       distance.distance < 0 ? "outside of" : "inside of");
+  }
   if (distance.distance < 0) return fmt::format("about {} {} deep in each other", size, unit.name());
   return fmt::format("about {} {} apart", size, unit.name());
 }
 
 std::string asked_text(const BodyDistance& distance, const BodiesText& bodies, const DisplayUnit& unit) {
+  if (distance.is_in_cone) return "it has to be inside";
   const std::string asked = unit.exact(asked_exactly(distance, pairs(bodies).at(distance.pair)));
   if (distance.clearance < 0) return fmt::format("may be {} {} deep there", asked.substr(1), unit.name());
   return fmt::format("clearance {} {}", asked, unit.name());
@@ -420,6 +425,10 @@ namespace {
 std::string contact_text(const PathWitness& witness, const BodiesText& bodies, const DisplayUnits& units) {
   const BodyPair pair = pairs(bodies).at(witness.contact->pair);
   const std::string both = pair_words(bodies, pair);
+  if (pair.kind == PairClass::kExitCones) {
+    return fmt::format("{} leaves its exit cone at the {}", cable_name(pair.first),
+                       name(bodies.exit_cones.at(pair.second).end));
+  }
   if (!pair.zones.empty()) {
     return fmt::format("{} are nearer to each other, or deeper in each other, than the case allows there", both);
   }

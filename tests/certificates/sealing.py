@@ -30,7 +30,8 @@ def bodies_clause(verdict, bodies):
     return '%s%s Pairs that are checked: %s. Pairs that are not checked: %s.%s' % (
         text_of('kClearClause' if verdict == 'proved' else 'kContactClause'), text_of('kBodiesClause'),
         ', '.join(checked) or 'none', ', '.join(n for n in names if n not in checked) or 'none',
-        (text_of('kMeshClause') if meshes else '') + (text_of('kContactZonesClause') if 'contacts' in bodies else ''))
+        (text_of('kMeshClause') if meshes else '') + (text_of('kContactZonesClause') if 'contacts' in bodies else '') +
+        (text_of('kExitConesClause') if 'exit_cones' in bodies else ''))
 
 
 CLAIMS = claims()

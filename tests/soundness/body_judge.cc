@@ -212,9 +212,8 @@ class BodyJudge {
       if (!pose) return {};
       const Machine<double> machine = approx_->machine(Deviation());
       for (Scanned& of : result) {
-        const auto solids = approx_scene_->at(of.pair, machine, *pose);
-        if (rough_distance(solids) > of.least) continue;
-        const double distance = distance_of(solids);
+        if (!of.pair.cone && rough_distance(approx_scene_->at(of.pair, machine, *pose)) > of.least) continue;
+        const double distance = approx_scene_->distance(of.pair, machine, *pose);
         if (distance < of.least) of = {of.pair, distance, s};
       }
     }
@@ -310,8 +309,7 @@ class BodyJudge {
   [[nodiscard]] double distance(double s, const Deviation& x, const ScenePair& pair) const {
     const auto pose = approx_->pose(s, x);
     if (!pose) return std::numeric_limits<double>::quiet_NaN();
-    const SolidPair<double> solids = approx_scene_->at(pair, approx_->machine(x), *pose);
-    return pair.zones.empty() ? distance_of(solids) : signed_distance_of(solids);
+    return approx_scene_->distance(pair, approx_->machine(x), *pose);
   }
   /// What the pair has to be farther apart than at s, which the machine as typed decides.
   [[nodiscard]] double asked(double s, const ScenePair& pair) const {
@@ -337,9 +335,9 @@ class BodyJudge {
       for (std::size_t j = 0; j < 3; ++j) rounded.r[i][j] = to_double(exact->r[i][j]);
     }
     ++tally_.bodies.pairs;
-    const SolidPair<BigFloat> solids = exact_scene_->at(pair, exact_->machine(x), *exact);
-    if (!pair.zones.empty()) return signed_distance_of(solids);
-    return distance_of(solids, approx_scene_->at(pair, approx_->machine(x), rounded));
+    if (pair.is_signed()) return exact_scene_->distance(pair, exact_->machine(x), *exact);
+    return distance_of(exact_scene_->at(pair, exact_->machine(x), *exact),
+                       approx_scene_->at(pair, approx_->machine(x), rounded));
   }
 
   /// s* and x* of the pair that decides.
@@ -485,10 +483,10 @@ class BodyJudge {
     const Machine<double> machine = approx_->machine(x);
     double least = kInfinity;
     for (std::size_t n = 0; n < pairs_.size(); ++n) {
-      const auto solids = approx_scene_->at(pairs_[n], machine, *pose);
-      if (rough_distance(solids) - clearances_[n] > least) continue;
-      const double margin = pairs_[n].zones.empty() ? distance_of(solids) - clearances_[n]
-                                                    : signed_distance_of(solids) - asked(s, pairs_[n]);
+      if (!pairs_[n].cone && rough_distance(approx_scene_->at(pairs_[n], machine, *pose)) - clearances_[n] > least) {
+        continue;
+      }
+      const double margin = approx_scene_->distance(pairs_[n], machine, *pose) - asked(s, pairs_[n]);
       if (!(margin > 1e-9 * trial_.size)) require_apart(s, x, n, "where floating point says little");
       if (margin < least) {
         least = margin;
@@ -601,6 +599,13 @@ class BodyJudge {
   /// The two points are points of the bodies, and not farther apart than they may be.
   void examine_contact(const PairContact& contact, const MachineAt<BigFloat>& at) {
     if (contact.pair >= pairs_.size()) return breach("refuted by a pair that is not there");
+    if (pairs_[contact.pair].cone) {
+      if (!contact.points.first.empty() || !contact.points.second.empty()) breach("refuted by points of an exit cone");
+      if (exact_scene_->distance(pairs_[contact.pair], at.machine, at.pose) > BigFloat(0.0)) {
+        breach("refuted by a cable that is inside of its exit cone");
+      }
+      return;
+    }
     const auto solids = exact_scene_->at(pairs_[contact.pair], at.machine, at.pose);
     const auto point = [&](const Solid<BigFloat>& solid, const std::vector<std::int64_t>& shares) {
       std::int64_t sum = 0;
@@ -669,6 +674,10 @@ class BodyJudge {
     const auto pose = approx_->pose(best_s_, worst_);
     for (const ScenePair& pair : pairs_) {
       Direction direction;
+      if (pair.cone) {
+        result.single.push_back(direction);
+        continue;
+      }
       const auto solids = approx_scene_->at(pair, approx_->machine(worst_), *pose);
       if (!solids[1].is_half_space) {
         const NearestFeatures<double> nearest = nearest_features(solids[0].points, solids[1].points);

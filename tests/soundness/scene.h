@@ -37,7 +37,31 @@ struct ScenePair {
   std::size_t first, second;
   DecimalText clearance;
   std::vector<ContactZoneText> zones = {};
+  std::optional<ExitConeText> cone = {};  ///< of an exit cone, in place of the second body
+
+  /// Whether its distance may be below 0.
+  [[nodiscard]] bool is_signed() const { return !zones.empty() || cone; }
 };
+
+/// |d| sin(a − t), by the cosine of t.
+template <class S>
+S distance_in_cone(const ScenePair& pair, const Machine<S>& machine, const RigidPose<S>& pose) {
+  const ExitConeText& cone = *pair.cone;
+  const Vec<S> n{number<S>(cone.axis[0]), number<S>(cone.axis[1]), number<S>(cone.axis[2])};
+  Vec<S> d = pose.p + pose.r * machine.b[pair.first] - machine.a[pair.first];
+  if (cone.end == CableEnd::kPlatform) {
+    Vec<S> turned;
+    for (std::size_t k = 0; k < 3; ++k) {
+      turned[k] = -(pose.r[0][k] * d[0] + pose.r[1][k] * d[1] + pose.r[2][k] * d[2]);
+    }
+    d = turned;
+  }
+  const S size = root(dot(d, d)), a = number<S>(cone.half_angle_rad);
+  const S cosine_t = dot(n, d) / (root(dot(n, n)) * size);
+  const S rest = S(1.0) - cosine_t * cosine_t;
+  const S sine_t = rest > S(0.0) ? root(rest) : S(0.0);
+  return size * (sine(a) * cosine_t - cosine(a) * sine_t);
+}
 
 inline std::string name_of_first(const BodiesText& bodies, PairClass kind, std::size_t k) {
   return kind == PairClass::kPlatformObstacles ? bodies.platform[k].name : "cable " + std::to_string(k + 1);
@@ -99,6 +123,9 @@ inline std::vector<ScenePair> scene_pairs(const BodiesText& bodies) {
   add(PairClass::kCablesObstacles, kCables, bodies.obstacles.size());
   add(PairClass::kCablesCables, kCables, kCables);
   add(PairClass::kCablesPlatform, kCables, bodies.platform.size());
+  for (std::size_t k = 0; k < bodies.exit_cones.size(); ++k) {
+    result.push_back({PairClass::kExitCones, bodies.exit_cones[k].cable, k, "0", {}, bodies.exit_cones[k]});
+  }
   return result;
 }
 
@@ -114,13 +141,17 @@ class Scene {
     }
   }
 
-  /// Both bodies of a pair, in W. @pre cables are longer than their free ends
+  /// The distance of a pair, minus how deep its bodies are in each other if that may be so.
+  [[nodiscard]] S distance(const ScenePair& pair, const Machine<S>& machine, const RigidPose<S>& pose) const;
+
+  /// Both bodies of a pair, but an exit cone, in W. @pre cables are longer than their free ends
   [[nodiscard]] SolidPair<S> at(const ScenePair& pair, const Machine<S>& machine, const RigidPose<S>& pose) const {
     switch (pair.kind) {
       case PairClass::kPlatformObstacles: return {carried(pair.first, pose), obstacles_[pair.second]};
       case PairClass::kCablesObstacles: return {cable(pair.first, machine, pose), obstacles_[pair.second]};
       case PairClass::kCablesCables: return {cable(pair.first, machine, pose), cable(pair.second, machine, pose)};
-      case PairClass::kCablesPlatform: break;
+      case PairClass::kCablesPlatform:
+      case PairClass::kExitCones: break;
     }
     return {cable(pair.first, machine, pose), carried(pair.second, pose)};
   }
@@ -303,6 +334,13 @@ S signed_distance_of(const SolidPair<S>& pair) {
   const S radii = pair[0].radius + pair[1].radius;
   if (nearest.overlap) return -depth_of(pair[0].points, pair[1].points).size - radii;
   return root(dot(nearest.apart, nearest.apart)) - radii;
+}
+
+template <class S>
+S Scene<S>::distance(const ScenePair& pair, const Machine<S>& machine, const RigidPose<S>& pose) const {
+  if (pair.cone) return distance_in_cone(pair, machine, pose);
+  const SolidPair<S> solids = at(pair, machine, pose);
+  return pair.is_signed() ? signed_distance_of(solids) : distance_of(solids);
 }
 
 /// No more than their distance, by balls around them.
