@@ -41,43 +41,34 @@ Point point(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
 
 /// As text, of which each number reads back as the same binary64 number.
 std::string text_of(const Surface& surface, const std::string& extension) {
-  fmt::memory_buffer out;
-  const auto add = [&](fmt::format_string<double, double, double> format, const Point& p) {
-    fmt::format_to(std::back_inserter(out), format, p.x(), p.y(), p.z());
-  };
-  const auto write = [&]<class... T>(fmt::format_string<T...> format, T&&... values) {
-    fmt::format_to(std::back_inserter(out), format, std::forward<T>(values)...);
+  std::string text;
+  const auto add_point = [&](const char* word, const Point& p) {
+    text += fmt::format("{}{} {} {}\n", word, p.x(), p.y(), p.z());
   };
   const auto corners = [&](auto face) { return surface.vertices_around_face(surface.halfedge(face)); };
   if (extension == ".stl") {
-    write("solid wrap\n");
+    text = "solid wrap\n";
     for (const auto face : surface.faces()) {
-      write("facet normal 0 0 0\nouter loop\n");
-      for (const auto v : corners(face)) add("vertex {} {} {}\n", surface.point(v));
-      write("endloop\nendfacet\n");
+      text += "facet normal 0 0 0\nouter loop\n";
+      for (const auto v : corners(face)) add_point("vertex ", surface.point(v));
+      text += "endloop\nendfacet\n";
     }
-    write("endsolid wrap\n");
-    return fmt::to_string(out);
+    return text + "endsolid wrap\n";
   }
   const bool is_ply = extension == ".ply";
   if (is_ply) {
-    write("ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
-          surface.number_of_vertices());
-    write("element face {}\nproperty list uchar int vertex_indices\nend_header\n", surface.number_of_faces());
+    text = fmt::format(
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        surface.number_of_vertices(), surface.number_of_faces());
   }
-  for (const auto v : surface.vertices()) {
-    if (is_ply) {
-      add("{} {} {}\n", surface.point(v));
-    } else {
-      add("v {} {} {}\n", surface.point(v));
-    }
-  }
+  for (const auto v : surface.vertices()) add_point(is_ply ? "" : "v ", surface.point(v));
   for (const auto face : surface.faces()) {
-    write(is_ply ? "3" : "f");
-    for (const auto v : corners(face)) write(" {}", static_cast<std::size_t>(v) + (is_ply ? 0 : 1));
-    write("\n");
+    text += is_ply ? "3" : "f";
+    for (const auto v : corners(face)) text += fmt::format(" {}", static_cast<std::size_t>(v) + (is_ply ? 0 : 1));
+    text += '\n';
   }
-  return fmt::to_string(out);
+  return text;
 }
 
 // --- Proof -------------------------------------------------------------------------------------------------------

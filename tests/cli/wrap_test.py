@@ -24,7 +24,10 @@ def read_obj(text):
     points, faces = [], []
     for line in text.splitlines():
         word, *rest = line.split()
-        (points if word == "v" else faces).append([float(x) for x in rest] if word == "v" else [int(x) - 1 for x in rest])
+        if word == "v":
+            points.append([float(x) for x in rest])
+        else:
+            faces.append([int(x) - 1 for x in rest])
     return points, faces
 
 

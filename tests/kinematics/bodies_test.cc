@@ -5,16 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/input_error.h"
 #include "case/case_file.h"
-#include "certify/arithmetic/interval.h"
-#include "certify/arithmetic/rounding.h"
-#include "kinematics/bodies.h"
 
 namespace taut {
 namespace {
@@ -117,37 +113,6 @@ TEST(Pairs, HaveTheirZonesOfContact) {
   EXPECT_EQ(zones["deck / stack"], std::vector{bodies.contacts[1].zone});
   EXPECT_TRUE(zones["tool / floor"].empty());
   EXPECT_TRUE(zones["cable 1 / floor"].empty());
-}
-
-TEST(RequiredDistance, IsMinusTheGreatestDepthOfTheZonesThatHoldThePlace) {
-  CheckedPair<double> pair{PairClass::kPlatformObstacles, 0, 0, 0.2};
-  pair.zones = {{{1, 2, 3}, 0.5, 0.25}, {{1, 2, 4}, 0.75, 0.125}};
-  const auto at = [&](double x, double y, double z) {
-    const RequiredDistance<double> required = required_distance(pair, {x, y, z});
-    EXPECT_EQ(required.at_most, required.at_least);
-    return required.at_most;
-  };
-  EXPECT_EQ(at(1, 2, 3), -0.25);
-  EXPECT_EQ(at(1, 2, 2.5), -0.25);  // the surface of a ball belongs to it
-  EXPECT_EQ(at(1, 2, 2.49), 0.2);
-  EXPECT_EQ(at(1, 2, 3.375), -0.25);  // in both
-  EXPECT_EQ(at(1, 2, 4.75), -0.125);
-  EXPECT_EQ(at(1, 2.76, 4), 0.2);
-}
-
-TEST(RequiredDistance, IsNeitherMoreNorLessThanItsBoundsSay) {
-  run_upward([] {
-    CheckedPair<Interval> pair{PairClass::kPlatformObstacles, 0, 0, Interval(0.2)};
-    pair.zones = {{{Interval(1.0), Interval(2.0), Interval(3.0)}, Interval(0.5), Interval(0.25)}};
-    const auto at = [&](Interval z) { return required_distance(pair, {Interval(1.0), Interval(2.0), z}); };
-    EXPECT_EQ(at(Interval(2.5, 3.5)).at_most.upper(), -0.25);
-    EXPECT_EQ(at(Interval(2.4, 3.5)).at_most.upper(), 0.2);
-    EXPECT_EQ(at(Interval(2.4, 3.5)).at_least.lower(), -0.25);
-    EXPECT_EQ(at(Interval(3.5, 4.0)).at_least.lower(), -0.25);
-    EXPECT_EQ(at(Interval(3.5625, 4.0)).at_least.lower(), 0.2);
-    EXPECT_EQ(at(Interval(std::numeric_limits<double>::quiet_NaN())).at_most.upper(), 0.2);
-    EXPECT_EQ(at(Interval(std::numeric_limits<double>::quiet_NaN())).at_least.lower(), -0.25);
-  });
 }
 
 TEST(Bodies, WithWrongContactsAreRejected) {

@@ -124,7 +124,7 @@ class BodiesOracle {
   [[nodiscard]] static S required(const checker::CheckedPair& pair, const campaign::Vec<S>& p) {
     S result = campaign::exact<S>(pair.clearance);
     for (const checker::ContactZone& zone : pair.zones) {
-      const campaign::Vec<S> from = p - campaign::exact<S>(zone.at);
+      const campaign::Vec<S> from = campaign::operator-(p, campaign::exact<S>(zone.at));
       const S within = campaign::exact<S>(zone.within), depth = campaign::exact<S>(zone.depth);
       if (!(campaign::dot(from, from) > within * within) && -depth < result) result = -depth;
     }

@@ -102,7 +102,7 @@ void for_each_count(Tally& tally, const Visit& visit) {
   }
 }
 static_assert(sizeof(Tally) ==
-                  sizeof(Count) * (9 * 4 * kDecades + 14 * kLaws * kToleranceKinds + 3 * 4 + 3 * kPairClasses + 15),
+                  sizeof(Count) * (9 * 4 * kDecades + 14 * kLaws * kToleranceKinds + 3 * 4 + 3 * kPairClasses + 16),
               "for_each_count() visits all that a Tally has");
 
 std::string text_of(Tally& tally) {
