@@ -152,6 +152,8 @@ Problem crane() {
   bodies.cables.diameter_m.fill("0.028");
   bodies.cables.free_ends_m.fill({"0.5", "0.4"});
   bodies.clearance_m = {"0.2", "0.2", "0.02", "0.01"};
+  bodies.exit_cones = {{0, CableEnd::kBase, {"-15", "-10", "-10"}, "1.2"},
+                       {3, CableEnd::kPlatform, {"-1", "1", "1"}, "(70)*pi/180"}};
   problem.bodies = bodies;
   validate(problem);
   return problem;
@@ -193,6 +195,13 @@ Placed cable(const DeviatingMachine& machine, const BodyModel<double>& bodies, s
 
 /// How much farther than its clearance a pair is apart.
 double true_gap(const DeviatingMachine& machine, const BodyModel<double>& bodies, const CheckedPair<double>& pair) {
+  if (pair.kind == PairClass::kExitCones) {
+    const ExitCone<double>& cone = bodies.exit_cones[pair.second];
+    Point d = machine.p + machine.r * machine.model.p_PB[pair.first] - machine.model.p_WA[pair.first];
+    if (cone.end == CableEnd::kPlatform) d = -machine.r.transpose() * d;
+    const double t = std::acos(std::clamp(d.normalized().dot(cone.axis), -1.0, 1.0));
+    return d.norm() * std::sin(std::atan2(cone.sine, cone.cosine) - t);
+  }
   const bool is_first_platform = pair.kind == PairClass::kPlatformObstacles;
   const Placed first = is_first_platform
                            ? Placed{in_world(machine, bodies.platform[pair.first]), bodies.platform[pair.first].radius}
@@ -430,6 +439,34 @@ TEST(RequiredDistance, IsNeitherMoreNorLessThanItsBoundsSay) {
     EXPECT_EQ(at(Interval(std::numeric_limits<double>::quiet_NaN())).at_most.upper(), 0.2);
     EXPECT_EQ(at(Interval(std::numeric_limits<double>::quiet_NaN())).at_least.lower(), -0.25);
   });
+}
+
+/// Cable 1 leaves its anchor at (15, 10, 15) for the platform's (0, 1.5, 0).
+TEST(Prover, DecidesWhetherACableStaysInItsExitCone) {
+  const Waypoint from = at({-4, 0, 6.5, 0, 0, 0}), to = at({4, 0, 6.5, 0, 0, 0});
+  const Point n = Point(-15, -10, -10).normalized();
+  double widest = 0;
+  for (int k = 0; k <= 1000; ++k) {
+    const Point d(-4 + 8 * k / 1000.0 - 15, 1.5 - 10, 6.5 - 15);
+    widest = std::max(widest, std::acos(d.normalized().dot(n)));
+  }
+  for (const double more : {1e-5, -1e-5}) {
+    Problem problem = crane();
+    problem.bodies->exit_cones = {{0, CableEnd::kBase, {"-15", "-10", "-10"}, fmt::format("{:.12f}", widest + more)}};
+    const SegmentProof proof = Prover(problem).prove(from, to);
+    EXPECT_EQ(proof.verdict, more > 0 ? Verdict::kProved : Verdict::kRefuted) << proof.reason;
+    if (more > 0 || !proof.witness || !proof.witness->contact) continue;
+    EXPECT_EQ(name(*problem.bodies, pairs(*problem.bodies).at(proof.witness->contact->pair)),
+              "cable 1 / exit cone at the base");
+  }
+}
+
+/// A cable along the axis of its cone: what is across is 0 there, and has no derivative.
+TEST(Prover, ProvesACableAlongTheAxisOfItsExitCone) {
+  Problem problem = crane();
+  problem.bodies->exit_cones = {{0, CableEnd::kBase, {"-15", "-8.5", "-8.5"}, "0.3"}};
+  const SegmentProof proof = Prover(problem).prove(at({-1, 0, 6.5, 0, 0, 0}), at({1, 0, 6.5, 0, 0, 0}));
+  EXPECT_EQ(proof.verdict, Verdict::kProved) << proof.reason;
 }
 
 TEST(Overlap, IsTheShortestWayOut) {

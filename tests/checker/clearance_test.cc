@@ -521,6 +521,90 @@ TEST(Clearance, CountsTheDeviationOfOneAnchorOnce) {
   EXPECT_LT(approx(two), approx(none) - 0.005);
 }
 
+// ---- Exit cones -----------------------------------------------------------------------------------------------------
+
+/// |d| sin(a - t), by the cosine of t.
+template <class S>
+S distance_in_cone(const ExitCone& cone, double half_angle, const campaign::Machine<S>& machine,
+                   const RigidPose<S>& pose) {
+  using namespace campaign;
+  const campaign::Vec<S> out = pose.p + pose.r * machine.b[cone.cable] - machine.a[cone.cable];
+  campaign::Vec<S> d = out;
+  for (std::size_t k = 0; k < 3 && cone.end == Axes::kPlatform; ++k) {
+    d[k] = -(pose.r[0][k] * out[0] + pose.r[1][k] * out[1] + pose.r[2][k] * out[2]);
+  }
+  const campaign::Vec<S> n = exact<S>(cone.axis);
+  const S size = root(dot(d, d)), cosine_t = dot(n, d) / (root(dot(n, n)) * size);
+  const S rest = S(1.0) - cosine_t * cosine_t;
+  const S sine_t = rest > S(0.0) ? root(rest) : S(0.0);
+  return size * (sine(S(half_angle)) * cosine_t - cosine(S(half_angle)) * sine_t);
+}
+
+TEST(ExitCones, AreKeptByEveryDeviation) {
+  const PrecisionScope oracle(kOracleBits);
+  const WorkingPrecision precision(64);
+  std::mt19937_64 random(28);
+  int boxes = 0, inside = 0;
+  double nearest = 1;
+  for (int k = 0; k < 60 && !::testing::Test::HasFailure(); ++k) {
+    const bool is_length_controlled = k % 2 == 1;
+    const std::optional<TolerancesText> within =
+        k % 3 == 0 ? std::nullopt
+                   : std::optional(tolerances(random, std::exp(uniform(random, -3, 1)), is_length_controlled));
+    ClearanceTrial trial = random_trial(random, within, std::exp(uniform(random, -12, -3)));
+    const ExitCone cone{random() % 6,
+                        random() % 2 == 0 ? Axes::kWorld : Axes::kPlatform,
+                        {ratio(uniform(random, -1, 1)), ratio(uniform(random, -1, 1)), ratio(uniform(random, -1, 1))},
+                        {}};
+    const double half_angle = static_cast<double>(1 + random() % 99) / 64;  // exact
+    trial.bodies().exit_cones = {cone};
+    trial.bodies().exit_cones[0].half_angle =
+        parse_expression(fmt::format("{:.10f}", half_angle), {}, "half_angle_rad");
+    trial.bodies().pairs = {{PairKind::kExitCone, cone.cable, 0, 0}};
+    std::optional<ClearanceTrial::Result> result;
+    try {
+      result = trial.margins({{}});
+    } catch (const Undefined&) {
+      continue;
+    }
+    ++boxes;
+    const Ball& margin = result->margins.at(0);
+    inside += certainly_positive(margin) ? 1 : 0;
+    const double u = uniform(random, -1, 1);
+    const auto deviant_distance = [&](const Deviation& by) {
+      const auto there = trial.led<double>(u, by);
+      return there ? distance_in_cone(cone, half_angle, there->machine, there->pose) : 1e9;
+    };
+    for (const Deviation& by :
+         {random_deviation(random), steepest([&](const Deviation& x) { return -deviant_distance(x); })}) {
+      const auto there = trial.led<BigFloat>(u, within ? by : Deviation());
+      ASSERT_TRUE(there);
+      const BigFloat distance = distance_in_cone(cone, half_angle, there->machine, there->pose);
+      EXPECT_TRUE(distance >= lower_end(margin) - BigFloat(1e-35))
+          << "trial " << k << ": " << distance.to_double() << " is less than " << approx(margin);
+      nearest = std::min(nearest, distance.to_double() - approx(margin));
+    }
+    const Machine machine(trial.problem);
+    trial.path.waypoints = {waypoint(trial.from), waypoint(trial.from)};
+    const Geometry here = commanded_geometry(machine, trial.problem, trial.path, 0, trial.box);
+    const BigFloat distance =
+        distance_in_cone(cone, half_angle, campaign::make_machine<BigFloat>(trial.stated), trial.pose<BigFloat>(-1));
+    EXPECT_TRUE(holds(contact_depth(machine, here, 0, {}), -distance, 1e-15)) << "trial " << k;
+  }
+  EXPECT_GT(boxes, 40);
+  EXPECT_GT(inside, 5);
+  EXPECT_LT(nearest, 1e-3);
+}
+
+TEST(ExitCones, NeedAHalfAngleBetweenNothingAndARightAngle) {
+  std::mt19937_64 random(29);
+  ClearanceTrial trial = random_trial(random, std::nullopt, 0);
+  for (const char* angle : {"0", "-1", "pi/2", "2"}) {
+    trial.bodies().exit_cones = {{0, Axes::kWorld, {0, 0, 1}, parse_expression(angle, {}, "")}};
+    EXPECT_THROW((void)PlacedBodies(trial.problem), Undefined) << angle;
+  }
+}
+
 // ---- Contact --------------------------------------------------------------------------------------------------------
 
 TEST(Contact, IsAsDeepAsTheTwoPointsSay) {

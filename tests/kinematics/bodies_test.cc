@@ -143,6 +143,38 @@ TEST(Bodies, WithWrongContactsAreRejected) {
       "the class 'platform-obstacles' is not");
 }
 
+ExitConeText cone(std::size_t cable, CableEnd end = CableEnd::kBase, ExpressionText half_angle = "(60)*pi/180") {
+  return {cable, end, {"0", "0.5", "-1"}, std::move(half_angle)};
+}
+
+TEST(Pairs, OfExitConesAreTheLast) {
+  BodiesText bodies = scene();
+  const std::size_t others = pairs(bodies).size();
+  bodies.exit_cones = {cone(4, CableEnd::kPlatform), cone(0)};
+  validate(bodies);
+  const std::vector<BodyPair> all = pairs(bodies);
+  ASSERT_EQ(all.size(), others + 2);
+  EXPECT_EQ(name(bodies, all[others]), "cable 5 / exit cone at the platform");
+  EXPECT_EQ(name(bodies, all[others + 1]), "cable 1 / exit cone at the base");
+  EXPECT_EQ(all.back().clearance_m, "0");
+}
+
+TEST(Bodies, WithWrongExitConesAreRejected) {
+  const auto with = [](std::vector<ExitConeText> cones) { return [cones](BodiesText& b) { b.exit_cones = cones; }; };
+  expect_rejected(with({cone(6)}), "bodies.exit_cones[0].cable: got 7, expected a cable, 1 to 6");
+  expect_rejected(with({cone(1), cone(1, CableEnd::kPlatform), cone(1)}),
+                  "bodies.exit_cones[2]: got a second exit cone of cable 2 at the base");
+  for (const char* angle : {"0", "-1", "pi/2", "2", "1/0", "x", ""}) {
+    expect_rejected(with({cone(0, CableEnd::kBase, angle)}), "bodies.exit_cones[0].half_angle");
+  }
+  expect_rejected(
+      [](BodiesText& b) {
+        (b.exit_cones = {cone(0)})[0].axis = {"0", "0", "0"};
+      },
+      "bodies.exit_cones[0].axis: got [0, 0, 0], expected a direction");
+  expect_rejected([](BodiesText& b) { (b.exit_cones = {cone(0)})[0].axis[1] = "1e9"; }, "below 1e9");
+}
+
 TEST(Bodies, WithWrongNamesAreRejected) {
   expect_rejected([](BodiesText& b) { b.platform[1].name = "floor"; }, "bodies.obstacles[0].name: got 'floor' twice");
   expect_rejected([](BodiesText& b) { b.platform[0].name = "cable 6"; }, "bodies.platform[0].name: got 'cable 6'");
@@ -215,6 +247,7 @@ Problem with_bodies() {
   problem.bodies = scene();
   problem.bodies->pair_clearances_m = {{{"rock", "deck"}, "0.05"}};
   problem.bodies->contacts = {contact({"floor", "deck"}), contact({"deck", "stack"})};
+  problem.bodies->exit_cones = {cone(2), cone(2, CableEnd::kPlatform)};
   return problem;
 }
 
@@ -234,15 +267,15 @@ TEST(BodiesJson, RejectsEachMissingUnknownOrMistypedMember) {
   ASSERT_GT(leaves.size(), 40U);
   for (const auto& [pointer, leaf] : leaves.items()) {
     json bad = good;
-    bad["bodies"][json::json_pointer(pointer)] = 7;
+    bad["bodies"][json::json_pointer(pointer)] = leaf.is_number() ? json("7") : json(7);
     EXPECT_THROW((void)problem_from_json(bad), InputError) << pointer;
   }
-  const std::set<std::string> optional = {"contacts",      "pair_clearances_m",  "rotation_rad",
-                                          "clearance_m",   "platform-obstacles", "cables-obstacles",
-                                          "cables-cables", "cables-platform"};
+  const std::set<std::string> optional = {"contacts",         "exit_cones",    "pair_clearances_m",
+                                          "rotation_rad",     "clearance_m",   "platform-obstacles",
+                                          "cables-obstacles", "cables-cables", "cables-platform"};
   for (const char* place :
        {"", "/platform/0", "/platform/0/hull", "/platform/1", "/platform/1/mesh", "/obstacles/0",
-        "/obstacles/0/half_space", "/cables", "/clearance_m", "/pair_clearances_m/0", "/contacts/1"}) {
+        "/obstacles/0/half_space", "/cables", "/clearance_m", "/pair_clearances_m/0", "/contacts/1", "/exit_cones/0"}) {
     const json::json_pointer pointer("/bodies" + std::string(place));
     json extra = good;
     extra[pointer]["extra"] = "1";

@@ -258,6 +258,30 @@ TEST(CasePairs, MayTouchSomewhere) {
   expect_rejected(bodies + "contacts: 3\n", "expected a list of contacts");
 }
 
+TEST(CaseExitCones, AreReadOfOneCableOrSome) {
+  const auto cones = [](const std::string& text) { return read("exit_cones: [" + text + "]\n").text.exit_cones; };
+  const std::string rest = ", end: base, axis: [0, 0, -1], half_angle: 60 deg}";
+  const auto all = cones("{cable: all" + rest);
+  ASSERT_EQ(all.size(), 6U);
+  EXPECT_EQ(all[5], (ExitConeText{5, CableEnd::kBase, {"0", "0", "-1"}, "(60)*pi/180"}));
+  EXPECT_EQ(cones("{cable: [2, 4]" + rest + ", {cable: 1, end: platform, axis: [1, 2, 3], half_angle: 0.5 rad}").size(),
+            3U);
+  const auto expect_wrong = [&](const std::string& cone, const std::string& message) {
+    expect_rejected("exit_cones: [" + cone + "]\n", message);
+  };
+  expect_wrong("{cable: 7" + rest, "bodies.exit_cones[0].cable: got '7', expected a cable, 1 to 6");
+  expect_wrong("{cable: [1, x]" + rest, "expected a cable, 1 to 6");
+  expect_wrong("{cable: [1, 1]" + rest, "bodies.exit_cones[1]: got a second exit cone of cable 1 at the base");
+  expect_wrong("{cable: []" + rest, "got no exit cone");
+  expect_wrong("{cable: 1, end: top, axis: [0, 0, -1], half_angle: 60 deg}", "bodies.exit_cones[0].end: got 'top'");
+  expect_wrong("{cable: 1, end: base, axis: [0, 0, 0], half_angle: 60 deg}", "expected a direction");
+  expect_wrong("{cable: 1, end: base, axis: [0, 0, -1], half_angle: 90 deg}", "expected an angle above 0 and below 90");
+  expect_wrong("{cable: 1, end: base, axis: [0, 0, -1], half_angle: 60 mm}", "bodies.exit_cones[0].half_angle");
+  expect_wrong("{cable: 1, end: base, axis: [0, 0, -1]}", "got no 'half_angle'");
+  expect_rejected("exit_cones: [{cable: all" + rest + "]\nclearance: 1\n", "got a clearance of nothing");
+  EXPECT_TRUE(pairs(read("exit_cones: [{cable: 1" + rest + "]\n").text).size() == 1);
+}
+
 // --- Anchors ---------------------------------------------------------------------------------------------------------
 
 TEST(CaseAnchors, InsideOfBodiesAreRejectedWhereTheCableAlwaysTouches) {

@@ -224,6 +224,16 @@ class BodyJudge {
   bool choose_target() {
     std::vector<Scanned> scanned = scan();
     if (scanned.empty()) return false;
+    const auto is_left = [&](const Scanned& of) { return of.pair.cone && !(of.least > 0.01 * trial_.size); };
+    if (std::ranges::any_of(scanned, is_left)) {
+      std::vector<ExitConeText> kept;
+      for (const Scanned& of : scanned) {
+        if (of.pair.cone && !is_left(of)) kept.push_back(*of.pair.cone);
+      }
+      trial_.problem.bodies->exit_cones = kept;
+      scanned = scan();
+      if (scanned.empty()) return false;
+    }
     const auto nearest = [&](PairClass kind) {
       const Scanned* least = nullptr;
       for (const Scanned& of : scanned) {
@@ -237,6 +247,7 @@ class BodyJudge {
       const Scanned* least = nearest(kind);
       if (least != nullptr && least->least > touching) usable.push_back(kind);
     }
+    if (nearest(PairClass::kExitCones) != nullptr) usable.push_back(PairClass::kExitCones);
     if (known_) {
       target_ = {known_->kind, known_->first, known_->second, "0"};
     } else {
@@ -296,7 +307,7 @@ class BodyJudge {
     double least = kInfinity;
     for (const Scanned& of : scanned) {
       const PairClass kind = of.pair.kind;
-      if (!bodies.clearance_m[static_cast<std::size_t>(kind)]) continue;
+      if (of.pair.cone || !bodies.clearance_m[static_cast<std::size_t>(kind)]) continue;
       if (name_of_first(bodies, kind, of.pair.first) == body.name ||
           name_of_second(bodies, kind, of.pair.second) == body.name) {
         least = std::min(least, of.least);
@@ -309,7 +320,13 @@ class BodyJudge {
   [[nodiscard]] double distance(double s, const Deviation& x, const ScenePair& pair) const {
     const auto pose = approx_->pose(s, x);
     if (!pose) return std::numeric_limits<double>::quiet_NaN();
+    if (pair.cone) return angle_left(pair, approx_->machine(x), *pose);
     return approx_scene_->distance(pair, approx_->machine(x), *pose);
+  }
+  /// Of an exit cone: a − t, which has the sign of its distance, wherever that is largest.
+  [[nodiscard]] static double angle_left(const ScenePair& pair, const Machine<double>& machine,
+                                         const RigidPose<double>& pose) {
+    return number<double>(pair.cone->half_angle_rad) - angle_in_cone(pair, machine, pose);
   }
   /// What the pair has to be farther apart than at s, which the machine as typed decides.
   [[nodiscard]] double asked(double s, const ScenePair& pair) const {
@@ -417,6 +434,21 @@ class BodyJudge {
     return true;
   }
 
+  /// The cable's other end is δ inside of the cone at (s*, x*), or as far outside.
+  bool set_half_angle() {
+    const auto pose = exact_->pose(BigFloat(best_s_), worst_);
+    if (!pose) return false;
+    const Machine<BigFloat> machine = exact_->machine(worst_);
+    const Vec<BigFloat> d = pose->p + pose->r * machine.b[target_.first] - machine.a[target_.first];
+    const BigFloat change = BigFloat(delta_) / root(dot(d, d));
+    const BigFloat t = angle_in_cone(target_, machine, *pose);
+    const BigFloat a = violated_ ? t - change : t + change;
+    if (!(a > BigFloat(1e-3)) || !(a < BigFloat(1.57))) return false;
+    target_.cone->half_angle_rad = decimal(a);
+    trial_.problem.bodies->exit_cones.at(target_.second) = *target_.cone;
+    return true;
+  }
+
   /// δ more or less than the pair has at (s*, x*), as the clearance of its class or as its own.
   bool set_clearance() {
     auto found = exact_distance(best_s_, worst_, target_);
@@ -433,6 +465,10 @@ class BodyJudge {
       if (target_.kind == PairClass::kPlatformObstacles && one_in(random_, 2)) {
         if (!set_zone(*found)) return false;
         ++tally_.bodies.zones;
+        found = exact_distance(best_s_, worst_, target_);
+        if (!found) return false;
+      } else if (target_.cone) {
+        if (!set_half_angle()) return false;
         found = exact_distance(best_s_, worst_, target_);
         if (!found) return false;
       } else if (one_in(random_, 2)) {

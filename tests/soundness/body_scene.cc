@@ -159,6 +159,23 @@ std::optional<KnownContact> choose_bodies(Trial& trial, const Motion<double>& ap
         moving_point<double>(bodies, near, uniform(random, 0, 1), approx.machine(Deviation()), *pose);
     bodies.obstacles.push_back(obstacle(random, fmt::format("thing {}", k + 1), trial.size, point, apart));
   }
+  for (std::size_t i = 0; i < kCables && one_in(random, 2); ++i) {  // about where the cable points somewhere
+    ExitConeText cone{.cable = i, .end = one_in(random, 2) ? CableEnd::kBase : CableEnd::kPlatform};
+    const auto pose = approx.commanded(uniform(random, 0, 1), Deviation());
+    if (!pose) continue;
+    const Machine<double> machine = approx.machine(Deviation());
+    Vec<double> d = pose->p + pose->r * machine.b[i] - machine.a[i];
+    if (cone.end == CableEnd::kPlatform) {
+      const Vec<double> of_base = d;
+      for (std::size_t k = 0; k < 3; ++k) {
+        d[k] = -(pose->r[0][k] * of_base[0] + pose->r[1][k] * of_base[1] + pose->r[2][k] * of_base[2]);
+      }
+    }
+    const double size = std::sqrt(dot(d, d)) * log_uniform(random, -2, 0);
+    for (std::size_t k = 0; k < 3; ++k) cone.axis[k] = decimal(d[k] + size * uniform(random, -1, 1));
+    cone.half_angle_rad = fmt::format("{:.6f}", uniform(random, 0.1, 1.5));
+    bodies.exit_cones.push_back(cone);
+  }
   std::optional<KnownContact> known;
   if (wall) {
     known = about();

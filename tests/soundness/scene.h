@@ -43,24 +43,33 @@ struct ScenePair {
   [[nodiscard]] bool is_signed() const { return !zones.empty() || cone; }
 };
 
-/// |d| sin(a − t), by the cosine of t.
+/// From the cable's anchor at an exit cone's end to its other one, in the cone's axes.
+template <class S>
+Vec<S> out_of_end(const ScenePair& pair, const Machine<S>& machine, const RigidPose<S>& pose) {
+  const Vec<S> d = pose.p + pose.r * machine.b[pair.first] - machine.a[pair.first];
+  if (pair.cone->end == CableEnd::kBase) return d;
+  Vec<S> turned;
+  for (std::size_t k = 0; k < 3; ++k) {
+    turned[k] = -(pose.r[0][k] * d[0] + pose.r[1][k] * d[1] + pose.r[2][k] * d[2]);
+  }
+  return turned;
+}
+
+/// Between that and the cone's axis, from half of it: of unit vectors, |u − v| is 2 sin(t/2), and |u + v| 2 cos(t/2).
+template <class S>
+S angle_in_cone(const ScenePair& pair, const Machine<S>& machine, const RigidPose<S>& pose) {
+  const auto unit = [](const Vec<S>& x) { return (S(1.0) / root(dot(x, x))) * x; };
+  const auto& axis = pair.cone->axis;
+  const Vec<S> u = unit(out_of_end(pair, machine, pose));
+  const Vec<S> v = unit(Vec<S>{number<S>(axis[0]), number<S>(axis[1]), number<S>(axis[2])});
+  const Vec<S> less = u - v, more = u + v;
+  return S(2.0) * angle(root(dot(less, less)), root(dot(more, more)));
+}
+
 template <class S>
 S distance_in_cone(const ScenePair& pair, const Machine<S>& machine, const RigidPose<S>& pose) {
-  const ExitConeText& cone = *pair.cone;
-  const Vec<S> n{number<S>(cone.axis[0]), number<S>(cone.axis[1]), number<S>(cone.axis[2])};
-  Vec<S> d = pose.p + pose.r * machine.b[pair.first] - machine.a[pair.first];
-  if (cone.end == CableEnd::kPlatform) {
-    Vec<S> turned;
-    for (std::size_t k = 0; k < 3; ++k) {
-      turned[k] = -(pose.r[0][k] * d[0] + pose.r[1][k] * d[1] + pose.r[2][k] * d[2]);
-    }
-    d = turned;
-  }
-  const S size = root(dot(d, d)), a = number<S>(cone.half_angle_rad);
-  const S cosine_t = dot(n, d) / (root(dot(n, n)) * size);
-  const S rest = S(1.0) - cosine_t * cosine_t;
-  const S sine_t = rest > S(0.0) ? root(rest) : S(0.0);
-  return size * (sine(a) * cosine_t - cosine(a) * sine_t);
+  const Vec<S> d = out_of_end(pair, machine, pose);
+  return root(dot(d, d)) * sine(number<S>(pair.cone->half_angle_rad) - angle_in_cone(pair, machine, pose));
 }
 
 inline std::string name_of_first(const BodiesText& bodies, PairClass kind, std::size_t k) {

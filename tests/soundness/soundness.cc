@@ -101,8 +101,8 @@ void for_each_count(Tally& tally, const Visit& visit) {
     visit(*count);
   }
 }
-static_assert(sizeof(Tally) ==
-                  sizeof(Count) * (9 * 4 * kDecades + 14 * kLaws * kToleranceKinds + 3 * 4 + 3 * kPairClasses + 16),
+static_assert(sizeof(Tally) == sizeof(Count) * (9 * 4 * kDecades + 14 * kLaws * kToleranceKinds + 3 * 4 +
+                                                3 * (kPairClasses + 1) + 16),
               "for_each_count() visits all that a Tally has");
 
 std::string text_of(Tally& tally) {
@@ -746,8 +746,9 @@ void print_angles(const Tally& tally) {
 double print_bodies(const BodyTally& tally) {
   fmt::print("\nWith bodies\n");
   print_counts(tally.counts);
-  for (const PairClass kind : all_pair_classes()) {
-    const auto& [proved, refuted, undecided] = tally.classes[static_cast<std::size_t>(kind)];
+  for (std::size_t k = 0; k <= kPairClasses; ++k) {
+    const auto kind = static_cast<PairClass>(k);
+    const auto& [proved, refuted, undecided] = tally.classes[k];
     fmt::print("{:<20} {:8d} proved {:8d} refuted {:8d} undecided\n", name(kind), proved.load(), refuted.load(),
                undecided.load());
   }

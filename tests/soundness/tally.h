@@ -30,8 +30,8 @@ struct BodyTally {
   /// (least distance − clearance)/size without tolerances, on paths of poses and of cable lengths; with tolerances.
   std::array<Decades, 3> decades;
   std::array<std::array<Counts, kToleranceKinds>, kLaws> counts;
-  std::array<std::array<Count, 3>, kPairClasses> classes;  ///< of the pair that decides: proved, refuted, undecided
-  Count zones{0};                                          ///< trials with a pair that may touch somewhere
+  std::array<std::array<Count, 3>, kPairClasses + 1> classes;  ///< of the pair that decides: proved, refuted, undecided
+  Count zones{0};                                              ///< trials with a pair that may touch somewhere
   Count walls{0}, walls_refuted{0};  ///< thinner than a sample: points of both bodies that meet are known
   Count pairs{0};                    ///< distances that were computed after proofs, in 200 bits
 };
