@@ -896,6 +896,7 @@ def pairs_of(bodies, p=(0, 0, 0)):
                           if {first['name'], second['name']} == set(entry['pair']) and
                           size(plus(p, [float(x) for x in entry['at_m']], -1)) <= float(entry['within_m'])]
                 result.append((kind, i, j, -max(depths) if depths else float(clearance)))
+    result += [('exit-cones', cone['cable'] - 1, k, 0.0) for k, cone in enumerate(bodies.get('exit_cones', []))]
     return result
 
 
@@ -971,9 +972,24 @@ class Scene:
             ends.append((point, (1 - t) * x + t * y + float(self.bodies['cables']['diameter_m'][i]) / 2))
         return ends
 
+    def in_cone(self, i, k):
+        """How far the other end of cable i is inside of exit cone k, with what tolerances take."""
+        cone = self.bodies['exit_cones'][k]
+        in_P = cone['end'] == 'platform'
+        a, b = self.anchors(i)
+        d = plus(plus(self.p, applied(self.R, b)), a, -1)
+        if in_P:
+            d = [-x for x in applied([list(row) for row in zip(*self.R)], d)]
+        n = [float(x) for x in cone['axis']]
+        half_angle, = evaluate({'constants': {}, 'parameters': []}, [cone['half_angle_rad']], [])
+        t = math.acos(inner(n, d) / size(n) / size(d))
+        return size(d) * sin(half_angle - t) - sum(self.shifts(i, in_P))
+
     def margin(self, pair, u, in_P):
         """What is proved of a pair along u; of a half-space whatever u is."""
         kind, i, j, clearance = pair
+        if kind == 'exit-cones':
+            return self.in_cone(i, j)
         if kind == 'cables-cables':
             (x1, y1), (x2, y2) = self.shifts(i, in_P), self.shifts(j, in_P)
             choices = [((x1, y1), (x2, y2))]
@@ -996,6 +1012,8 @@ class Scene:
     def direction(self, pair):
         """Integers next to the best u, in W or in P, where either serves in turn; nothing for a half-space."""
         kind, i, j, _ = pair
+        if kind == 'exit-cones':
+            return None
         in_P = kind == 'cables-platform' or (kind == 'cables-cables' and (i + j) % 2 == 0)
         first = self.carried(i, in_P) if kind == 'platform-obstacles' else self.cable(i, in_P)
         if kind.endswith('obstacles') and 'half_space' in self.bodies['obstacles'][j]:
@@ -1073,6 +1091,11 @@ def clearances():
     of_obstacles = with_bodies(near, clearance_m={'platform-obstacles': '0.01', 'cables-obstacles': '0.005'},
                                pair_clearances_m=BODIES['pair_clearances_m'][1:])
     yield 'clearance_of_obstacles', clear(proved(of_obstacles, copy.deepcopy(ends), below=0.98))
+    leaning = with_bodies(with_tolerances(near, **KINDS), platform=[], obstacles=[], clearance_m={}, exit_cones=[
+        {'cable': 1, 'end': 'base', 'axis': ['0', '-0.2', '1'], 'half_angle_rad': '(40)*pi/180'},
+        {'cable': 4, 'end': 'platform', 'axis': ['-2', '0', '1'], 'half_angle_rad': '0.75'}])
+    del leaning['bodies']['pair_clearances_m']
+    yield 'exit_cones', clear(tolerant(leaning, copy.deepcopy(ends), below=0.9))
     touching = with_bodies(
         near, clearance_m={'platform-obstacles': '0.01'}, pair_clearances_m=BODIES['pair_clearances_m'][1:], contacts=[
             {'pair': ['tool', 'stack'], 'at_m': ['0', '0.01', '0.35'], 'within_m': '0.02', 'depth_m': '0.03'},
