@@ -65,10 +65,20 @@ inline Problem with_zones(Problem problem) {
   return problem;
 }
 
+/// No bodies, but exit cones at either end, that part of the poses keep to.
+inline Problem with_exit_cones(Problem problem) {
+  BodiesText bodies;
+  bodies.exit_cones = {{0, CableEnd::kBase, {"-0.1", "-0.3", "1"}, "0.375"},
+                       {3, CableEnd::kPlatform, {"-1", "0", "1.5"}, "0.75"}};
+  problem.bodies = bodies;
+  validate(problem);
+  return problem;
+}
+
 /// Distances of pairs of a problem's bodies.
 class BodiesOracle {
  public:
-  explicit BodiesOracle(const Problem& problem) {
+  explicit BodiesOracle(const Problem& problem) : cones_(problem.bodies->exit_cones) {
     const nlohmann::json text = to_json(problem);
     bodies_ = checker::read_problem(checker::Cursor(text, "problem")).bodies.value();
     for (const auto& [from, to] :
@@ -93,6 +103,7 @@ class BodiesOracle {
   [[nodiscard]] S slack(const campaign::Machine<S>& machine, const campaign::RigidPose<S>& pose,
                         std::size_t pair) const {
     const checker::CheckedPair& of = bodies_.pairs[pair];
+    if (of.kind == checker::PairKind::kExitCone) return left_in_cone(cones_.at(of.second), machine, pose);
     const auto here = campaign::bodies_at<S>(bodies_, platform_, obstacles_, of, machine, pose);
     const S clearance = required<S>(of, pose.p);
     const auto deeper = [&](const S& distance) {  // where the hulls meet
@@ -120,6 +131,21 @@ class BodiesOracle {
       return deeper(campaign::distance_at(here, search)) - clearance;
     }
   }
+  /// |d| sin(a − t), by a and t.
+  template <class S>
+  [[nodiscard]] static S left_in_cone(const ExitConeText& cone, const campaign::Machine<S>& machine,
+                                      const campaign::RigidPose<S>& pose) {
+    using namespace campaign;
+    const auto out = pose.p + pose.r * machine.b[cone.cable] - machine.a[cone.cable];
+    auto d = out;
+    for (std::size_t k = 0; k < 3 && cone.end == CableEnd::kPlatform; ++k) {
+      d[k] = -(pose.r[0][k] * out[0] + pose.r[1][k] * out[1] + pose.r[2][k] * out[2]);
+    }
+    const campaign::Vec<S> n{number<S>(cone.axis[0]), number<S>(cone.axis[1]), number<S>(cone.axis[2])};
+    const campaign::Vec<S> across = cross(d, n);
+    const S t = angle(root(dot(across, across)), dot(d, n));
+    return root(dot(d, d)) * sine(number<S>(cone.half_angle_rad) - t);
+  }
   template <class S>
   [[nodiscard]] static S required(const checker::CheckedPair& pair, const campaign::Vec<S>& p) {
     S result = campaign::exact<S>(pair.clearance);
@@ -143,6 +169,7 @@ class BodiesOracle {
   }
 
  private:
+  std::vector<ExitConeText> cones_;
   checker::Bodies bodies_;
   std::vector<checker::TestBody> platform_, obstacles_;
 };

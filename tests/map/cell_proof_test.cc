@@ -228,6 +228,12 @@ TEST(CellProof, TellsDeepContactInLargeCells) {
   EXPECT_LT(map.leaves(), 40'000U);
 }
 
+TEST(CellProof, AgreesWithTheOracleForExitCones) {
+  check_cells(with_exit_cones(robot1_slice()), {.undecided_share = 0.05}, {kInside, kContact});
+  check_cells(with_exit_cones(robot1_with_tolerances(false)), {.least_width = 1.0 / 256, .undecided_share = 0.2},
+              {kInside, kContact}, 100);
+}
+
 /// As above, but the block may be entered by less than it is entered.
 TEST(CellProof, TellsWhereBodiesAreDeeperThanTheyMayBe) {
   Problem problem = robot1_slice();

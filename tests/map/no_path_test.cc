@@ -102,6 +102,9 @@ TEST(OutsideCells, HoldNoPoseWhoseBodiesAreApart) {
   problem = with_zones(robot1_slice());
   for (Limits& limits : problem.robot.tension_N) limits = {"0", "1e9"};
   EXPECT_GT(hold_against_oracle(problem, 150, 8)[3], 20);
+  problem = with_exit_cones(robot1_slice());
+  for (Limits& limits : problem.robot.tension_N) limits = {"0", "1e9"};
+  EXPECT_GT(hold_against_oracle(problem, 150, 9)[3], 20);
 }
 
 TEST(OutsideCells, HoldNoPoseWithAllLengthsWithinLimits) {
