@@ -111,6 +111,8 @@ def altered(value):
         yield value + value[-1:]
         for k, part in enumerate(value):
             yield from (value[:k] + [other] + value[k + 1:] for other in altered(part))
+    elif isinstance(value, int):
+        yield value + 1
     elif isinstance(value, dict):
         for key, part in value.items():
             yield {k: v for k, v in value.items() if k != key}
@@ -151,6 +153,55 @@ class Altered(MeshFolder):
     def test_meshes_are_the_cases(self):
         self.audit(stl(box((9, 9, 9), (0, 0, 40))), code=0)
         self.expect_refused(40)
+
+    def test_contacts_and_exit_cones_are_the_cases(self):
+        text = text_of(os.path.join(CASES, "bodies", "slit-wider.yaml")).replace("space:", """\
+  contacts:
+  - {pair: [tool, left wall], at: [0, 0, 6], within: 0.5, depth: 1 mm}
+  - {pair: [right wall, tool], at: [1, 0, 6], within: 0.5, depth: 2 mm}
+  exit_cones:
+  - {cable: 1, end: base, axis: [-15, -10, -10], half_angle: 60}
+  - {cable: 5, end: platform, axis: [0, -1, 1], half_angle: 70}
+space:""")
+        said = run(TAUT, "audit", self.write("case.yaml", text), os.path.join(CASES, "bodies", "slit.csv"), "--out",
+                   self.path("out"))
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        self.expect_refused(140)
+
+
+class ContactsAndCones(InFolder):
+    """A container that stands on the floor, and whose cables lean as far as their sheaves swivel."""
+
+    LIFT = text_of(os.path.join(CASES, "cranes", "portal-20t-lift.yaml"))
+    AUDIT = re.sub(r"query:.*", "audit: {}\n", LIFT, flags=re.S)
+
+    def audit(self, edit=lambda text: text, to=4, code=None):
+        path = self.write("path.csv", "px[m],py[m],pz[m],phi[deg],theta[deg],sigma[deg]\n"
+                                      "-4,0,3.5,0,0,0\n-4,0,%s,0,0,0\n" % to)
+        said = run(TAUT, "audit", self.write("case.yaml", edit(self.AUDIT)), path, "--out", self.path("out"))
+        if code is not None:
+            self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+        return " ".join(said.stdout.split())
+
+    def test_a_load_may_touch_what_it_stands_on_and_nowhere_else(self):
+        self.audit(code=0)
+        stated = stated_first(text_of(self.path("out", "report.html")))
+        self.assertIn("These may touch: 'container' and 'floor', up to 25 mm deep, while the platform's origin is within "
+                      "300 mm of (\u22124, 0, 3.5) m;", " ".join(stated.split()))
+        checked = run(CHECK, self.path("out", "certificate.json"), self.path("case.yaml"))
+        self.assertEqual(checked.returncode, 0, checked.stdout)
+        said = self.audit(lambda text: text.replace("within: 300 mm", "within: 100 mm"), code=1)
+        self.assertIn("'container' and 'floor' are nearer to each other, or deeper in each other, than the case allows",
+                      said)
+        self.audit(lambda text: re.sub(r"  contacts:.*?  exit_cones:", "  exit_cones:", text, flags=re.S), code=1)
+
+    def test_a_depth_has_to_take_up_what_tolerances_may_move_the_load_by(self):
+        self.assertNotIn("PROVED", self.audit(lambda text: text.replace("depth: 25 mm", "depth: 15 mm"), code=2))
+
+    def test_a_cable_may_lean_as_far_as_its_cone(self):
+        said = self.audit(lambda text: text.replace("half_angle: 35", "half_angle: 22"), code=1)
+        self.assertRegex(said, "cable [56] leaves its exit cone at the base")
+        self.assertIn("cable 5 at the base, 22° around (0, 10, -10)", said)
 
 
 class Clearances(InFolder):
