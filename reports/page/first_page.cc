@@ -74,16 +74,16 @@ Html scope(const ReportContext& scene, const Summary& s) {
 /// Which collisions the verdict is about.
 Html collisions(const ReportContext& scene) {
   const std::optional<BodiesText>& bodies = scene.certificate.problem.bodies;
-  if (!bodies || pairs(*bodies).empty()) return html("Collisions: <b>not checked</b>");
-  const std::size_t cones = bodies->exit_cones.size();
+  const std::size_t cones = bodies ? bodies->exit_cones.size() : 0;
+  const Html of_cones = cones == 0 ? Html() : html("; {} of cables", plural(cones, "exit cone"));
+  if (!bodies || pairs(*bodies).size() == cones) return html("Collisions: <b>not checked</b>") + of_cones;
   const std::string count = plural(pairs(*bodies).size() - cones, "pair");
   const Html checked = scene.verdict == "proved" ? html("Collisions: {} of bodies <b>✓</b>", count)
                                                  : html("Collisions: {} of bodies looked at", count);
   std::string others;
   for (const PairClass kind : unchecked_classes(*bodies))
     others += (others.empty() ? "" : ", ") + std::string(words_of(kind));
-  const Html all = others.empty() ? checked : checked + html("; <b>not checked</b>: {}", others);
-  return cones == 0 ? all : all + html("; {}", plural(cones, "exit cone"));
+  return (others.empty() ? checked : checked + html("; <b>not checked</b>: {}", others)) + of_cones;
 }
 
 /// What stands beside the verdict: the second program, the machine, collisions.

@@ -186,8 +186,8 @@ class ContactsAndCones(InFolder):
     def test_a_load_may_touch_what_it_stands_on_and_nowhere_else(self):
         self.audit(code=0)
         stated = stated_first(text_of(self.path("out", "report.html")))
-        self.assertIn("These may touch: 'container' and 'floor', up to 25 mm deep, while the platform's origin is within "
-                      "300 mm of (\u22124, 0, 3.5) m;", " ".join(stated.split()))
+        self.assertIn("These may touch: 'container' and 'floor', up to 25 mm deep, while the platform's origin is "
+                      "within 300 mm of (\u22124, 0, 3.5) m;", " ".join(stated.split()))
         checked = run(CHECK, self.path("out", "certificate.json"), self.path("case.yaml"))
         self.assertEqual(checked.returncode, 0, checked.stdout)
         said = self.audit(lambda text: text.replace("within: 300 mm", "within: 100 mm"), code=1)
