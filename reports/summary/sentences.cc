@@ -163,6 +163,9 @@ std::string contact_details(const ReportContext& scene, const PathWitness& witne
   const BodyDistance distance =
       scene.bodies->at(scene.sampler.model(), scene.sampler.rigid_pose(sample), witness.contact->pair);
   const DisplayUnit& unit = scene.illustration.units.length;
+  if (distance.is_in_cone) {
+    return fmt::format("In floating point its other end is {} there. {}", apart_text(distance, unit), where);
+  }
   const std::string points =
       distance.distance < 0 ? fmt::format("next to {}", point_in_space(distance.at[0], unit))
                             : fmt::format("at {} of the first and {} of the second",
@@ -296,7 +299,7 @@ std::string apart_text(const BodyDistance& distance, const DisplayUnit& unit) {
   constexpr int kDigits = 3;
   const std::string size = unit.nearest(std::abs(distance.distance), kDigits);
   if (distance.is_in_cone) {
-    return fmt::format("about {} {} {} its surface", size, unit.name(),
+    return fmt::format("about {} {} {} the cone", size, unit.name(),
                        distance.distance < 0 ? "outside of" : "inside of");
   }
   if (distance.distance < 0) return fmt::format("about {} {} deep in each other", size, unit.name());
