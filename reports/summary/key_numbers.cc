@@ -322,7 +322,9 @@ std::optional<KeyNumber> clearance_number(const ReportContext& scene, bool is_pr
   const std::string asked = asked_text(nearest, *scene.certificate.problem.bodies, unit);
   return KeyNumber{
       "clearance",
-      left > 0 ? "Least clearance left" : "Bodies too near, by about",
+      left > 0             ? "Least clearance left"
+      : nearest.is_in_cone ? "Out of an exit cone, by about"
+                           : "Bodies too near, by about",
       value,
       fmt::format("{}, {}, {} · {}; sampled{}", scene.bodies->name(nearest.pair), apart_text(nearest, unit), asked,
                   place_text(scene, scene.samples[k].position), has_bound ? "" : ", not proved"),
