@@ -449,22 +449,20 @@ json shape(const BodyShape& body, const MachineView& view) {
 
 /// The pair with the least left at each sample, and its nearest points.
 json nearest_bodies(const DistancesAlong& along) {
-  std::vector<double> pair, distance, clearance;
+  std::vector<double> pair, distance, clearance, cone;
   std::array<std::vector<double>, 3> first, second;
   for (const BodyDistance& nearest : along.least) {
     pair.push_back(static_cast<double>(nearest.pair));
     distance.push_back(nearest.distance);
     clearance.push_back(nearest.clearance);
+    cone.push_back(nearest.is_in_cone ? 1 : 0);
     for (std::size_t c = 0; c < 3; ++c) {
       first[c].push_back(nearest.at[0](static_cast<Eigen::Index>(c)));
       second[c].push_back(nearest.at[1](static_cast<Eigen::Index>(c)));
     }
   }
-  return {{"pair", numbers(pair)},
-          {"distance", numbers(distance)},
-          {"clearance", numbers(clearance)},
-          {"first", json_columns(first)},
-          {"second", json_columns(second)}};
+  return {{"pair", numbers(pair)}, {"distance", numbers(distance)}, {"clearance", numbers(clearance)},
+          {"cone", numbers(cone)}, {"first", json_columns(first)},  {"second", json_columns(second)}};
 }
 
 /// Shapes, cables as bodies, and distances at the samples; null where the problem has no bodies.

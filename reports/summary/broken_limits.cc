@@ -214,6 +214,7 @@ std::string what_text(const BrokenLimit& broken) {
   const bool deviates = broken.proof && broken.proof->deviation;
   const char* const machine = deviates ? "on a machine within the tolerances" : "";
   if (broken.is_singular) return machine;
+  if (broken.bodies && broken.bodies->is_in_cone) return "is left";
   if (broken.bodies) return broken.bodies->distance < 0 ? "in each other" : "nearer than their clearance";
   const bool upper = is_upper(broken.margin);
   const char* const what = is_length(broken.margin) ? (upper ? "too long" : "too short")

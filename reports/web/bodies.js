@@ -213,11 +213,12 @@ export function nearestPoints(nearest, [k, t]) {
   return [nearest.first, nearest.second].map((columns) => columns.map((c) => c[k] + t * (c[k + 1] - c[k])));
 }
 
-/// What is said of the nearest pair at a place: its name, distance [m] and clearance [m].
+/// What is said of the nearest pair at a place: its name, distance [m], clearance [m], and whether it is a cable and
+/// its exit cone.
 export function nearestPair({ nearest, names }, [k, t]) {
   const isSame = t > 0 && nearest.pair[k] === nearest.pair[k + 1];
   const i = !isSame && t > 0.5 ? k + 1 : k;
   const distance = isSame ? nearest.distance[k] + t * (nearest.distance[k + 1] - nearest.distance[k])
     : nearest.distance[i];
-  return { name: names[nearest.pair[i]], distance, clearance: nearest.clearance[i] };
+  return { name: names[nearest.pair[i]], distance, clearance: nearest.clearance[i], isCone: nearest.cone[i] === 1 };
 }

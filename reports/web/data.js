@@ -18,9 +18,9 @@
 //               radius (all within it of their convex hull), or plane (four corners of what is shown of a half-space),
 //               or corners and triangles; box: corners of a box around it. cable_radius, free_ends (six pairs: at the
 //               base, at the platform), has_cables (whether they are checked); nearest: of the pair with the least left
-//               at each sample its number, distance (below 0: how deep), clearance, and points of either (3 columns
-//               each); names of pairs by their numbers; pairs: those that come nearest, name, clearance, distance
-//               (column)
+//               at each sample its number, distance (below 0: how deep), clearance (below 0: how deep they may be),
+//               cone (1: a cable and its exit cone), and points of either (3 columns each); names of pairs by their
+//               numbers; pairs: those that come nearest, name, clearance and distance (columns)
 //   stretches   the parts of the path that are not proved: from, to, violated (else open)
 //   witness     position, to, kind, cable; or null
 //   weights     centres of gravity of the load's weights, in the axes of the platform

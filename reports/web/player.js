@@ -101,11 +101,13 @@ class Readout {
   showBodies(where) {
     const { bodies, lengthUnit: { name: unit, factor } } = this.data;
     if (!bodies || bodies.nearest.pair.length === 0) return;
-    const { name, distance, clearance } = nearestPair(bodies, where);
-    const apart = distance < 0 ? `in each other, about ${text(-distance * factor, 3)} ${unit} deep`
-      : `${text(distance * factor, 3)} ${unit} apart`;
-    const asked = clearance < 0 ? `may be ${text(-clearance * factor)} ${unit} deep here`
+    const { name, distance, clearance, isCone } = nearestPair(bodies, where);
+    const size = `${text(Math.abs(distance) * factor, 3)} ${unit}`;
+    const apart = isCone ? `${size} ${distance < 0 ? "outside" : "inside"}`
+      : distance < 0 ? `in each other, about ${size} deep` : `${size} apart`;
+    const allowed = clearance < 0 ? `may be ${text(-clearance * factor)} ${unit} deep here`
       : `clearance ${text(clearance * factor)} ${unit}`;
+    const asked = isCone ? "it has to be inside" : allowed;
     this.bodies.textContent = `Nearest bodies: ${name}, ${apart} (${asked})`;
     this.bodies.className = `bodies ${distance > clearance ? "" : "out"}`;
   }
