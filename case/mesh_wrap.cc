@@ -115,8 +115,10 @@ void require_inside(const IndexedMesh& mesh, const IndexedMesh& read) {
                                                          : tree.do_intersect(Triangle(p[0], p[1], p[2]));
     if (meets) fail("it meets the mesh. A larger --offset may do");
   }
-  for (const std::uint32_t element : mesh.components()) {
-    if (side(corners(element)[0]) != CGAL::ON_BOUNDED_SIDE) fail("a part of the mesh is outside of it");
+  for (const std::uint32_t vertex : mesh.components()) {
+    if (side(point(mesh.mesh().vertices.at(vertex))) != CGAL::ON_BOUNDED_SIDE) {
+      fail("a part of the mesh is outside of it");
+    }
   }
 }
 
