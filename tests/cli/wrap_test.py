@@ -108,6 +108,15 @@ class Wrap(InFolder):
             self.assertEqual(shown.returncode, 0, shown.stderr)
             self.assertIn(said, " ".join(shown.stdout.split()))
 
+    def test_what_is_not_inside_is_not_written(self):
+        # CGAL passes over faces without an area.
+        for needle, message in ((((5, 5, 5), (6, 6, 6)), "a part of the mesh is outside of it"),
+                                (((0, 0, 0), (6, 6, 6)), "it meets the mesh")):
+            text = box((0, 0, 0), (1, 1, 1)) + "".join("v %r %r %r\n" % p for p in needle) + "f 9 10 10\n"
+            done = self.wrap(text, code=3)
+            self.assertIn("the wrap was not written: " + message, " ".join(done.stderr.split()))
+            self.assertFalse(os.path.exists(self.path("wrap.obj")))
+
     def test_bad_input_writes_nothing(self):
         good = box((0, 0, 0), (2, 1, 1))
         for text, options, message in (
