@@ -2,6 +2,7 @@
 // What the kernel proves of distances between bodies, held against machines, poses and deviations in 200 bits.
 #include "checker/kernel/clearance.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "checker/kernel/box_proof.h"
@@ -528,13 +529,14 @@ template <class S>
 S distance_in_cone(const ExitCone& cone, double half_angle, const campaign::Machine<S>& machine,
                    const RigidPose<S>& pose) {
   using namespace campaign;
-  const campaign::Vec<S> out = pose.p + pose.r * machine.b[cone.cable] - machine.a[cone.cable];
+  const campaign::Vec<S> B = campaign::operator+(pose.p, campaign::operator*(pose.r, machine.b[cone.cable]));
+  const campaign::Vec<S> out = campaign::operator-(B, machine.a[cone.cable]);
   campaign::Vec<S> d = out;
   for (std::size_t k = 0; k < 3 && cone.end == Axes::kPlatform; ++k) {
     d[k] = -(pose.r[0][k] * out[0] + pose.r[1][k] * out[1] + pose.r[2][k] * out[2]);
   }
   const campaign::Vec<S> n = exact<S>(cone.axis);
-  const S size = root(dot(d, d)), cosine_t = dot(n, d) / (root(dot(n, n)) * size);
+  const S size = root(campaign::dot(d, d)), cosine_t = campaign::dot(n, d) / (root(campaign::dot(n, n)) * size);
   const S rest = S(1.0) - cosine_t * cosine_t;
   const S sine_t = rest > S(0.0) ? root(rest) : S(0.0);
   return size * (sine(S(half_angle)) * cosine_t - cosine(S(half_angle)) * sine_t);
