@@ -157,25 +157,21 @@ Overlap overlap(std::span<const Point> first, std::span<const Point> second) {
   constexpr std::size_t kStarts = 6;
   std::ranges::partial_sort(tried, tried.begin() + kStarts, {}, &Overlap::depth);
   Overlap best = tried.front();
+  std::vector<Point> moved(first.size());
   for (std::size_t start = 0; start < kStarts; ++start) {
-    auto [least, u] = tried[start];
-    for (double step = 0.1; step > 1e-7; step /= 2) {
-      for (int turns = 0; turns < 8; ++turns) {
-        bool is_better = false;
-        const Point across = u.unitOrthogonal();
-        const Point other = u.cross(across);
-        for (const Point& aside : {across, Point(-across), other, Point(-other)}) {
-          const Point next = (u + step * aside).normalized();
-          const double here = overlap_along(first, second, next);
-          if (!(here < least)) continue;
-          least = here;
-          u = next;
-          is_better = true;
-        }
-        if (!is_better) break;
-      }
+    // Moved out by t along u, they are d apart along v: the overlap along v is t u·v − d ≤ t − d, and d is not less
+    // than t less the overlap along u. So v is better than u until the two are the same.
+    Overlap here = tried[start];
+    for (int turn = 0; turn < 50 && here.depth > 0; ++turn) {
+      for (std::size_t k = 0; k < moved.size(); ++k) moved[k] = first[k] + 1.25 * here.depth * here.along;
+      const NearestPoints nearest = nearest_points(moved, second);
+      if (!(nearest.distance > 0)) break;
+      const Point u = nearest.apart.normalized();
+      const double depth = overlap_along(first, second, u);
+      if (!(depth < here.depth)) break;
+      here = {depth, u};
     }
-    if (least < best.depth) best = {least, u};
+    if (here.depth < best.depth) best = here;
   }
   best.depth = std::max(best.depth, 0.0);
   return best;

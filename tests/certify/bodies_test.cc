@@ -486,13 +486,17 @@ TEST(Overlap, IsTheShortestWayOut) {
     const Overlap found = overlap(bodies[0], bodies[1]);
     ASSERT_GT(found.depth, 0);
     EXPECT_NEAR(found.along.norm(), 1, 1e-12);
-    const auto distance_after = [&](double way) {
+    const auto distance_after = [&](const Point& way) {
       std::vector<Point> moved = bodies[0];
-      for (Point& x : moved) x += way * found.along;
+      for (Point& x : moved) x += way;
       return nearest_points(moved, bodies[1]).distance;
     };
-    EXPECT_EQ(distance_after(0.99 * found.depth), 0);
-    EXPECT_NEAR(distance_after(1.1 * found.depth), 0.1 * found.depth, 1e-6);
+    EXPECT_NEAR(distance_after(1.1 * found.depth * found.along), 0.1 * found.depth, 1e-9);
+    for (int k = 0; k < 100; ++k) {  // and none that is shorter leads out
+      const Point u = Point(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized();
+      EXPECT_NEAR(distance_after(0.99 * found.depth * u), 0, 1e-9);
+    }
+    EXPECT_NEAR(distance_after(0.99 * found.depth * found.along), 0, 1e-9);
   }
 }
 

@@ -108,7 +108,7 @@ TEST(BodyDistances, FindTheNearestPairsAlongThePathThatAllPairsGive) {
   EXPECT_EQ(along.least[along.worst()].left(), least[0]);
   ASSERT_EQ(along.nearest.size(), DistancesAlong::kMostPairs);
   for (std::size_t n = 0; n < along.nearest.size(); ++n) {
-    EXPECT_EQ(along.distance[n][along.nearest_at[n]] - along.clearance[n], least[n]) << n;
+    EXPECT_EQ(along.distance[n][along.nearest_at[n]] - along.clearance[n][along.nearest_at[n]], least[n]) << n;
     EXPECT_EQ(along.distance[n].size(), scene.samples.size());
   }
 }
