@@ -116,6 +116,9 @@ NearestPoints nearest_points(std::span<const Point> first, std::span<const Point
     simplex = std::move(kept);
     nearest = closer;
   }
+  double size = 0;
+  for (const Vertex& v : simplex) size = std::max(size, v.at.squaredNorm());
+  if (nearest.squared <= kEnough * kEnough * size) nearest = {Point::Zero(), nearest.shares, 0};  // rounding
   NearestPoints result{std::sqrt(nearest.squared), nearest.at, std::vector<double>(first.size()),
                        std::vector<double>(second.size())};
   for (std::size_t k = 0; k < simplex.size(); ++k) {

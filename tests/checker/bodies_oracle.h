@@ -124,7 +124,8 @@ std::pair<HullAt<S>, BodyAt<S>> bodies_at(const Bodies& bodies, const std::vecto
     case PairKind::kPlatformObstacle: return {carried(pair.first), body_at<S>(obstacles[pair.second])};
     case PairKind::kCableObstacle: return {cable(pair.first), body_at<S>(obstacles[pair.second])};
     case PairKind::kCableCable: return {cable(pair.first), cable(pair.second)};
-    case PairKind::kCablePlatform: break;
+    case PairKind::kCablePlatform:
+    case PairKind::kExitCone: break;  // the latter has no bodies
   }
   return {cable(pair.first), carried(pair.second)};
 }

@@ -68,8 +68,8 @@ inline Problem with_zones(Problem problem) {
 /// No bodies, but exit cones at either end, that part of the poses keep to.
 inline Problem with_exit_cones(Problem problem) {
   BodiesText bodies;
-  bodies.exit_cones = {{0, CableEnd::kBase, {"-0.1", "-0.3", "1"}, "0.375"},
-                       {3, CableEnd::kPlatform, {"-1", "0", "1.5"}, "0.75"}};
+  bodies.exit_cones = {{0, CableEnd::kBase, {"-0.1", "-0.3", "1"}, "0.6"},
+                       {3, CableEnd::kPlatform, {"-1", "0", "1.5"}, "0.9"}};
   problem.bodies = bodies;
   validate(problem);
   return problem;

@@ -137,7 +137,7 @@ TEST(ReportOfBodies, SaysWhatIsCheckedAndWhatIsNot) {
   const std::string assumed_text = in_full(assumed(scene.certificate.problem, Interpolation::kStraight));
   EXPECT_THAT(assumed_text, AllOf(HasSubstr("Obstacles do not move"), HasSubstr("are one point")));
   const auto item = std::ranges::find(summary.lift_plan, std::string("clearances"), &LiftPlanItem::key);
-  EXPECT_THAT(item->filled, AllOf(HasSubstr("farther apart than its clearance"), HasSubstr("20 mm")));
+  EXPECT_THAT(item->filled, AllOf(HasSubstr("farther apart than their clearances"), HasSubstr("20 mm")));
 }
 
 TEST(ReportOfBodies, HasTheProvedClearanceAndTheNearestPair) {

@@ -62,14 +62,16 @@ test("polygons are cut at the window", () => {
 
 test("the nearest pair is that of the nearer sample, and runs on between two with the same", () => {
   const nearest = {
-    pair: [3, 3, 5], distance: [1, 2, 0.5], clearance: [0.2, 0.2, 0.1],
+    pair: [3, 3, 5], distance: [1, 2, 0.5], clearance: [0.2, 0.2, 0.1], cone: [0, 0, 1],
     first: [[0, 1, 7], [0, 0, 0], [0, 0, 0]], second: [[1, 3, 9], [0, 0, 0], [0, 0, 0]],
   };
   const names = { 3: "hook / post", 5: "cable 1 / post" };
-  assert.deepEqual(nearestPair({ nearest, names }, [0, 0.25]), { name: "hook / post", distance: 1.25, clearance: 0.2 });
-  assert.deepEqual(nearestPair({ nearest, names }, [1, 0.4]), { name: "hook / post", distance: 2, clearance: 0.2 });
+  assert.deepEqual(nearestPair({ nearest, names }, [0, 0.25]),
+    { name: "hook / post", distance: 1.25, clearance: 0.2, isCone: false });
+  assert.deepEqual(nearestPair({ nearest, names }, [1, 0.4]),
+    { name: "hook / post", distance: 2, clearance: 0.2, isCone: false });
   assert.deepEqual(nearestPair({ nearest, names }, [1, 0.6]),
-    { name: "cable 1 / post", distance: 0.5, clearance: 0.1 });
+    { name: "cable 1 / post", distance: 0.5, clearance: 0.1, isCone: true });
   assert.deepEqual(nearestPoints(nearest, [0, 0.5]), [[0.5, 0, 0], [2, 0, 0]]);
   assert.deepEqual(nearestPoints(nearest, [1, 0.6]), [[7, 0, 0], [9, 0, 0]]);
   assert.deepEqual(nearestPoints(nearest, [2, 0]), [[7, 0, 0], [9, 0, 0]]);
