@@ -64,8 +64,8 @@ inline constexpr const char* kContactZonesClause =
 /// Follows all others, where the problem states exit cones.
 inline constexpr const char* kExitConesClause =
     " A cable and each exit cone that the problem states for it are a checked pair, too. Its distance is |d| sin(a - "
-    "t), where d is the vector from the cable's anchor at the stated end to its other anchor, in W at the base and in P "
-    "at the platform, t the angle between d and the stated axis, and a the stated half-angle, which is above 0 and "
+    "t), where d is the vector from the cable's anchor at the stated end to its other anchor, in W at the base and in "
+    "P at the platform, t the angle between d and the stated axis, and a the stated half-angle, which is above 0 and "
     "below a right angle; its clearance is 0.";
 
 /// The classes of pairs, in the order in which certificates count them.
