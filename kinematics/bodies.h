@@ -103,7 +103,7 @@ struct BodyModel {
 
 /// Of an exit cone: |d| sin(half-angle − t), how far the other end of the cable is inside, where d is the vector to it
 /// from the cable's anchor here, in the cone's axes, and t the angle between d and the cone's axis. It changes by no
-/// more than d does. @param S  any of the cone's scalar's, or forms in it
+/// more than d does. @tparam S  the cone's scalar, or forms in it
 template <class S, class C>
 [[nodiscard]] S distance_in_cone(const ExitCone<C>& cone, const std::array<S, 3>& d);
 

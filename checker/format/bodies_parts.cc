@@ -142,10 +142,10 @@ class BodiesReader {
         [&](const Cursor& contacts) { read_contacts(contacts); }, "exit_cones?",
         [&](const Cursor& cones) { read_exit_cones(cones); });
     make_pairs();
-    const auto require_used = [&](const char* key, const auto& list, const char* expected) {
-      if (list.empty()) return;
+    const auto require_used = [&](const char* key, const auto& stated, const char* expected) {
+      if (stated.empty()) return;
       const Cursor entries = json[key];
-      for (std::size_t k = 0; k < list.size(); ++k) entries.at(k).require(list[k].is_used, expected);
+      for (std::size_t k = 0; k < stated.size(); ++k) entries.at(k).require(stated[k].is_used, expected);
     };
     require_used("pair_clearances_m", own_, "two bodies that are a checked pair");
     require_used("contacts", contacts_, "a body of the platform and an obstacle, no meshes, that are a checked pair");

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "base/input_error.h"
 #include "certificate/certificate_reader.h"
@@ -47,6 +48,7 @@ bool has_half_turns(const Path& path) {
 TEST(Agreement, OnEveryPathOfTheCertificatesOfTheTests) {
   int read = 0;
   int decided = 0;
+  std::set<std::string> judged;  // what they are about: many differ only in their proofs
   for (const char* folder : {"accepted", "rejected"}) {
     for (const auto& file : checker::certificates(folder)) {
       SCOPED_TRACE(file);
@@ -55,6 +57,9 @@ TEST(Agreement, OnEveryPathOfTheCertificatesOfTheTests) {
       const std::string name = file.stem();
       if (name.starts_with("attack_tower") || name == "implied_zero_at_the_end_of_the_tube") continue;
       const json certificate = json::parse(checker::read_text(file));
+      json motion = certificate["path"];
+      if (motion.is_object()) motion.erase("directions");
+      if (!judged.insert(certificate["problem"].dump() + motion.dump()).second) continue;
       try {
         const Problem problem = problem_from_json(certificate["problem"]);
         const Path path = read_path(certificate["path"]);

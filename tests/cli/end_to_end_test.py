@@ -51,8 +51,8 @@ class EndToEnd(InFolder):
         self.assertRegex(said.stdout, r"ok +taut-check +taut-check \d")
 
     def test_every_case_ends_as_it_declares_and_its_certificate_is_accepted(self):
-        """With a report of those of the tutorial; .ci/run makes one of each."""
-        for number, case in enumerate(all_cases()):
+        """With a report of those of the tutorial; .ci/run makes one of each, also of cranes, which take their time."""
+        for number, case in enumerate(case for case in all_cases() if os.sep + "cranes" + os.sep not in case):
             with self.subTest(case=case):
                 out = self.path(str(number))
                 is_reported = "tutorial" in case

@@ -48,7 +48,7 @@ class Robustness(InFolder):
         usual = time.monotonic() - begin
         chance = random.Random(20261121)
         ended = set()
-        for number in range(40 if AT_LENGTH else 16):
+        for number in range(40 if AT_LENGTH else 8):
             command = [TAUT, "plan", CASE] if number % 2 else [TAUT, "audit", AUDITED]
             with subprocess.Popen([*command, "--out", self.path("out")], stdout=subprocess.DEVNULL,
                                   stderr=subprocess.DEVNULL) as process:
@@ -180,7 +180,7 @@ class Robustness(InFolder):
                     enough = middle
                 else:
                     too_little = middle
-            step = enough // (80 if AT_LENGTH else 24)
+            step = enough // (80 if AT_LENGTH else 12)
             codes = {kilobytes: ends_with(kilobytes) for kilobytes in range(enough // 2, enough, step)}
             # 127: the loader had not enough to begin with.
             self.assertLessEqual(set(codes.values()), {0, 4, 126, 127}, codes)

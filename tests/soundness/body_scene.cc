@@ -160,7 +160,9 @@ std::optional<KnownContact> choose_bodies(Trial& trial, const Motion<double>& ap
     bodies.obstacles.push_back(obstacle(random, fmt::format("thing {}", k + 1), trial.size, point, apart));
   }
   for (std::size_t i = 0; i < kCables && one_in(random, 2); ++i) {  // about where the cable points somewhere
-    ExitConeText cone{.cable = i, .end = one_in(random, 2) ? CableEnd::kBase : CableEnd::kPlatform};
+    ExitConeText cone;
+    cone.cable = i;
+    cone.end = one_in(random, 2) ? CableEnd::kBase : CableEnd::kPlatform;
     const auto pose = approx.commanded(uniform(random, 0, 1), Deviation());
     if (!pose) continue;
     const Machine<double> machine = approx.machine(Deviation());
