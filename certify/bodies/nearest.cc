@@ -92,6 +92,7 @@ OnSimplex nearest_on_simplex(std::span<const Vertex> vertices) {
 NearestPoints nearest_points(std::span<const Point> first, std::span<const Point> second) {
   constexpr int kMostSteps = 100;
   constexpr double kEnough = 1e-14;  // of the squared distance
+  constexpr double kMeet = 1e-28;    // of the squared distance of two points: all that rounding leaves where hulls meet
   std::vector<Vertex> simplex{{first[0] - second[0], 0, 0}};
   OnSimplex nearest = nearest_on_simplex(simplex);
   for (int step = 0; step < kMostSteps; ++step) {
@@ -116,9 +117,9 @@ NearestPoints nearest_points(std::span<const Point> first, std::span<const Point
     simplex = std::move(kept);
     nearest = closer;
   }
-  double size = 0;
-  for (const Vertex& v : simplex) size = std::max(size, v.at.squaredNorm());
-  if (nearest.squared <= kEnough * kEnough * size) nearest = {Point::Zero(), nearest.shares, 0};  // rounding
+  double largest = 0;
+  for (const Vertex& v : simplex) largest = std::max(largest, v.at.squaredNorm());
+  if (nearest.squared <= kMeet * largest) nearest = {Point::Zero(), nearest.shares, 0};
   NearestPoints result{std::sqrt(nearest.squared), nearest.at, std::vector<double>(first.size()),
                        std::vector<double>(second.size())};
   for (std::size_t k = 0; k < simplex.size(); ++k) {
@@ -158,15 +159,17 @@ Overlap overlap(std::span<const Point> first, std::span<const Point> second) {
     consider(-Point::Unit(k));
   }
   constexpr std::size_t kStarts = 6;
+  constexpr int kTurns = 50;
+  constexpr double kBeyond = 1.25;  // the first is moved farther than out, so that nearest points tell a direction
   std::ranges::partial_sort(tried, tried.begin() + kStarts, {}, &Overlap::depth);
   Overlap best = tried.front();
   std::vector<Point> moved(first.size());
   for (std::size_t start = 0; start < kStarts; ++start) {
-    // Moved out by t along u, they are d apart along v: the overlap along v is t u·v − d ≤ t − d, and d is not less
-    // than t less the overlap along u. So v is better than u until the two are the same.
+    // Let the first, moved by t along u, be at the distance d from the second, along v. Then the overlap along v is
+    // t u·v − d, and d is at least t minus the overlap along u. So the overlap along v is the lesser, unless v = u.
     Overlap here = tried[start];
-    for (int turn = 0; turn < 50 && here.depth > 0; ++turn) {
-      for (std::size_t k = 0; k < moved.size(); ++k) moved[k] = first[k] + 1.25 * here.depth * here.along;
+    for (int turn = 0; turn < kTurns && here.depth > 0; ++turn) {
+      for (std::size_t k = 0; k < moved.size(); ++k) moved[k] = first[k] + kBeyond * here.depth * here.along;
       const NearestPoints nearest = nearest_points(moved, second);
       if (!(nearest.distance > 0)) break;
       const Point u = nearest.apart.normalized();

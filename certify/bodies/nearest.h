@@ -15,7 +15,7 @@ namespace taut {
 
 /// Nearest points of the convex hulls of two sets of points (Gilbert, Johnson and Keerthi's algorithm).
 struct NearestPoints {
-  double distance = 0;                ///< 0 where the hulls meet
+  double distance = 0;                ///< 0 where the hulls meet, up to rounding
   Vector3<double> apart{0, 0, 0};     ///< from the second's nearest point to the first's
   std::vector<double> first, second;  ///< shares of the points, nonnegative, summing to 1
 };
@@ -24,7 +24,7 @@ struct NearestPoints {
 
 /// About how deep two hulls that meet are in each other.
 struct Overlap {
-  double depth = 0;                ///< the least along any direction, sought among many and then around the best [m]
+  double depth = 0;                ///< the least along any direction, sought from the best of many [m]
   Vector3<double> along{0, 0, 1};  ///< the unit vector that moves the first out of the second by it
 };
 [[nodiscard]] Overlap overlap(std::span<const Vector3<double>> first, std::span<const Vector3<double>> second);

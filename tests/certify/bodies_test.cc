@@ -494,9 +494,9 @@ TEST(Overlap, IsTheShortestWayOut) {
     EXPECT_NEAR(distance_after(1.1 * found.depth * found.along), 0.1 * found.depth, 1e-9);
     for (int k = 0; k < 100; ++k) {  // and none that is shorter leads out
       const Point u = Point(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized();
-      EXPECT_NEAR(distance_after(0.99 * found.depth * u), 0, 1e-9);
+      EXPECT_EQ(distance_after(0.99 * found.depth * u), 0);
     }
-    EXPECT_NEAR(distance_after(0.99 * found.depth * found.along), 0, 1e-9);
+    EXPECT_EQ(distance_after(0.99 * found.depth * found.along), 0);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -124,10 +125,10 @@ std::pair<HullAt<S>, BodyAt<S>> bodies_at(const Bodies& bodies, const std::vecto
     case PairKind::kPlatformObstacle: return {carried(pair.first), body_at<S>(obstacles[pair.second])};
     case PairKind::kCableObstacle: return {cable(pair.first), body_at<S>(obstacles[pair.second])};
     case PairKind::kCableCable: return {cable(pair.first), cable(pair.second)};
-    case PairKind::kCablePlatform:
-    case PairKind::kExitCone: break;  // the latter has no bodies
+    case PairKind::kCablePlatform: return {cable(pair.first), carried(pair.second)};
+    case PairKind::kExitCone: break;
   }
-  return {cable(pair.first), carried(pair.second)};
+  throw std::logic_error("an exit cone is no body");
 }
 
 // ---- Distances ------------------------------------------------------------------------------------------------------
