@@ -530,11 +530,17 @@ void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure
   const BodiesBox<I> box = bodies_box(problem, enclosure);
   const BodyGaps<I> gaps(box);
   if (!gaps.have_cables_length()) verdict.kind = BoxVerdict::Kind::kNear;
+  std::vector<std::pair<double, std::size_t>> order;  // of the pairs, by rough bounds: the nearest may well come first
+  order.reserve(directions.single.size());
   for (std::size_t n = 0; n < directions.single.size(); ++n) {
+    const double rough = gaps.rough(problem.bodies->pairs[n], directions.single[n]);
+    order.emplace_back(rough > 0 ? rough : 0.0, n);  // not a NaN
+  }
+  std::ranges::sort(order);
+  for (const auto& [rough, n] : order) {
     const CheckedPair<I>& pair = problem.bodies->pairs[n];
     // Of a pair that is farther apart than another one, nothing more is asked.
-    const double rough = gaps.rough(pair, directions.single[n]);
-    if (rough > 0 && rough >= verdict.clearance_m) continue;
+    if (rough > 0 && rough >= verdict.clearance_m) break;
     const PairBound bound =
         gaps.has_mesh(pair) ? bound_of_mesh(gaps, pair, directions.of(n), std::max(verdict.clearance_m, kJustPositive))
                             : bound_along(gaps, pair, directions.single[n]);

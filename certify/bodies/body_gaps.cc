@@ -107,11 +107,9 @@ std::array<typename BodyGaps<I, Slope>::Projection, 2> BodyGaps<I, Slope>::cable
 }
 
 template <class I, class Slope>
-std::vector<typename BodyGaps<I, Slope>::Projection> BodyGaps<I, Slope>::platform_points(const ConvexBody<I>& body,
-                                                                                         const Turned& u,
-                                                                                         bool in_platform) const {
-  std::vector<Projection> result;
-  result.reserve(body.points.size());
+typename BodyGaps<I, Slope>::Projections BodyGaps<I, Slope>::platform_points(const ConvexBody<I>& body, const Turned& u,
+                                                                             bool in_platform) const {
+  Projections result;
   if (in_platform) {  // they stand still: the lowest one will do
     I lowest = dot(u.u, body.points.front());
     for (const Vector3<I>& x : body.points) lowest = lesser(lowest, dot(u.u, x));
@@ -127,13 +125,14 @@ std::vector<typename BodyGaps<I, Slope>::Projection> BodyGaps<I, Slope>::platfor
 }
 
 template <class I, class Slope>
-std::vector<typename BodyGaps<I, Slope>::Projection> BodyGaps<I, Slope>::first(const CheckedPair<I>& pair,
-                                                                               const Turned& u,
-                                                                               bool in_platform) const {
+typename BodyGaps<I, Slope>::Projections BodyGaps<I, Slope>::first(const CheckedPair<I>& pair, const Turned& u,
+                                                                   bool in_platform) const {
   if (pair.kind == PairClass::kPlatformObstacles)
     return platform_points(box_.bodies.platform[pair.first], u, in_platform);
   const auto ends = cable(pair.first, u, in_platform, end_shifts(pair, pair.first, in_platform));
-  return {ends[0], ends[1]};
+  Projections result;
+  for (const Projection& end : ends) result.push_back(end);
+  return result;
 }
 
 template <class I, class Slope>
@@ -249,13 +248,13 @@ GapBound<I, Slope> BodyGaps<I, Slope>::along(const CheckedPair<I>& pair, const D
   const I inverse_norm = reciprocal(euclidean_norm(u[0], u[1], u[2]));
 
   // The second body: constants, or two ends of a cable that move with the platform, too.
-  std::vector<Projection> second;
+  Projections second;
   const I needed = radii(pair) + required(pair, false).at_most;
   if (half != nullptr) {
     second.push_back({Form(half->offset), Upper(0.0)});
   } else if (pair.kind == PairClass::kCablesCables) {
     const auto ends = cable(pair.second, turned_u, in_platform, end_shifts(pair, pair.second, in_platform));
-    second.assign(ends.begin(), ends.end());
+    for (const Projection& end : ends) second.push_back(end);
   } else if (in_platform && pair.kind == PairClass::kPlatformObstacles) {
     const ConvexBody<I>& body = second_hull(box_.bodies, pair);
     for (const Vector3<I>& x : body.points) {

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -150,6 +151,7 @@ class BodyGaps {
     Form at;
     Upper shift;
   };
+  using Projections = boost::container::small_vector<Projection, 8>;
   /// PairDirections are turned into the other axes once.
   struct Turned {
     std::array<I, 3> u;         ///< in its own axes
@@ -168,10 +170,9 @@ class BodyGaps {
   [[nodiscard]] Turned turned(const std::array<I, 3>& u, bool in_platform) const;
   [[nodiscard]] std::array<Projection, 2> cable(std::size_t i, const Turned& u, bool in_platform,
                                                 const std::array<Upper, 2>& shifts) const;
-  [[nodiscard]] std::vector<Projection> platform_points(const ConvexBody<I>& body, const Turned& u,
-                                                        bool in_platform) const;
+  [[nodiscard]] Projections platform_points(const ConvexBody<I>& body, const Turned& u, bool in_platform) const;
   [[nodiscard]] std::array<Upper, 2> end_shifts(const CheckedPair<I>& pair, std::size_t cable, bool in_platform) const;
-  [[nodiscard]] std::vector<Projection> first(const CheckedPair<I>& pair, const Turned& u, bool in_platform) const;
+  [[nodiscard]] Projections first(const CheckedPair<I>& pair, const Turned& u, bool in_platform) const;
   [[nodiscard]] std::vector<Vector3<Form>> points(const CheckedPair<I>& pair, bool is_first,
                                                   const std::optional<std::uint32_t>& element) const;
   /// The sum of shares times points.

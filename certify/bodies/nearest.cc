@@ -17,74 +17,125 @@ using Point = Vector3<double>;
 
 /// A vertex a_i − b_j of the difference of two hulls.
 struct Vertex {
-  Point at;
+  Point at{0, 0, 0};
   std::size_t first = 0, second = 0;
 };
 
 std::size_t farthest(std::span<const Point> points, const Point& along) {
-  const auto height = [&](const Point& x) { return x.dot(along); };
-  return static_cast<std::size_t>(std::ranges::max_element(points, {}, height) - points.begin());
+  std::size_t best = 0;
+  double height = points[0].dot(along);
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const double here = points[k].dot(along);
+    if (here > height) {
+      height = here;
+      best = k;
+    }
+  }
+  return best;
 }
 
-/// The point of the hull of up to four vertices that is nearest to the origin, as shares of these.
-struct OnSimplex {
-  Point at{0, 0, 0};
+/// How far apart along a vector, times its length.
+double gap_along(const Point& u, std::span<const Point> first, std::span<const Point> second) {
+  double least = u.dot(first[0]), greatest = u.dot(second[0]);
+  for (const Point& a : first.subspan(1)) least = std::min(least, u.dot(a));
+  for (const Point& b : second.subspan(1)) greatest = std::max(greatest, u.dot(b));
+  return least - greatest;
+}
+
+/// Up to four vertices, and the point of their hull that is nearest to the origin, as shares of them.
+struct Simplex {
+  std::array<Vertex, 4> vertices;
+  std::size_t size = 0;
   std::array<double, 4> shares{};
+  Point at{0, 0, 0};
   double squared = std::numeric_limits<double>::infinity();
 };
 
-/// The nearest point of the affine hull of some of the vertices; not if it is outside of their hull.
-std::optional<OnSimplex> nearest_on_face(std::span<const Vertex> vertices, unsigned members) {
-  std::array<std::size_t, 4> index{};
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    if ((members >> k & 1U) != 0) index[n++] = k;
-  }
-  const Point& origin = vertices[index[0]].at;
-  std::array<Point, 3> edge;
-  for (std::size_t k = 1; k < n; ++k) edge[k - 1] = vertices[index[k]].at - origin;
-  // The least of |origin + Σ along_k edge_k|, by Gram's matrix and Cramer's rule; where its determinant is next to
-  // nothing a lower face has the same points.
+/// Finds the nearest point of the hull, looking only at faces that have its last vertex: the least of
+/// |last + Σ_k along_k edge_k| of each, by Gram's matrix and Cramer's rule. Where a determinant is next to nothing, a
+/// lower face has the same points.
+void find_nearest(Simplex& simplex) {
   constexpr double kFlat = 1e-14;  // of what it would be at right angles
+  const std::size_t edges = simplex.size - 1;
+  const Point& last = simplex.vertices[edges].at;
+  std::array<Point, 3> edge;
+  std::array<double, 3> h{};
+  std::array<std::array<double, 3>, 3> g{};
+  for (std::size_t i = 0; i < edges; ++i) {
+    edge[i] = simplex.vertices[i].at - last;
+    h[i] = -edge[i].dot(last);
+    for (std::size_t j = 0; j <= i; ++j) g[i][j] = g[j][i] = edge[i].dot(edge[j]);
+  }
+  simplex.squared = last.squaredNorm();
+  simplex.at = last;
+  simplex.shares = {};
+  simplex.shares[edges] = 1;
+  const auto consider = [&](const std::array<double, 3>& along) {
+    double rest = 1;
+    Point at = last;
+    for (std::size_t k = 0; k < edges; ++k) {
+      if (!(along[k] >= 0)) return;
+      rest -= along[k];
+      at += along[k] * edge[k];
+    }
+    const double squared = at.squaredNorm();
+    if (!(rest >= 0) || !(squared < simplex.squared)) return;
+    simplex.squared = squared;
+    simplex.at = at;
+    for (std::size_t k = 0; k < edges; ++k) simplex.shares[k] = along[k];
+    simplex.shares[edges] = rest;
+  };
+  for (std::size_t i = 0; i < edges; ++i) {
+    std::array<double, 3> along{};
+    if (g[i][i] > 0) along[i] = h[i] / g[i][i];
+    consider(along);
+    for (std::size_t j = 0; j < i; ++j) {
+      const double determinant = g[i][i] * g[j][j] - g[i][j] * g[i][j];
+      if (!(determinant > kFlat * g[i][i] * g[j][j])) continue;
+      along = {};
+      along[i] = (h[i] * g[j][j] - h[j] * g[i][j]) / determinant;
+      along[j] = (h[j] * g[i][i] - h[i] * g[i][j]) / determinant;
+      consider(along);
+    }
+  }
+  if (edges < 3) return;
+  const double volume = edge[0].dot(edge[1].cross(edge[2]));
+  if (!(volume * volume > kFlat * g[0][0] * g[1][1] * g[2][2])) return;
   std::array<double, 3> along{};
-  const auto g = [&](std::size_t i, std::size_t j) { return edge[i].dot(edge[j]); };
-  const auto h = [&](std::size_t i) { return -edge[i].dot(origin); };
-  if (n == 2) {
-    if (!(g(0, 0) > 0)) return std::nullopt;
-    along[0] = h(0) / g(0, 0);
-  } else if (n == 3) {
-    const double determinant = g(0, 0) * g(1, 1) - g(0, 1) * g(0, 1);
-    if (!(determinant > kFlat * g(0, 0) * g(1, 1))) return std::nullopt;
-    along[0] = (h(0) * g(1, 1) - h(1) * g(0, 1)) / determinant;
-    along[1] = (h(1) * g(0, 0) - h(0) * g(0, 1)) / determinant;
-  } else if (n == 4) {
-    const double volume = edge[0].dot(edge[1].cross(edge[2]));
-    if (!(volume * volume > kFlat * g(0, 0) * g(1, 1) * g(2, 2))) return std::nullopt;
-    for (std::size_t k = 0; k < 3; ++k) along[k] = -origin.dot(edge[(k + 1) % 3].cross(edge[(k + 2) % 3])) / volume;
-  }
-  OnSimplex result;
-  double rest = 1;
-  result.at = origin;
-  for (std::size_t k = 1; k < n; ++k) {
-    const double share = along[k - 1];
-    if (!(share >= 0)) return std::nullopt;
-    result.shares[index[k]] = share;
-    result.at += share * edge[k - 1];
-    rest -= share;
-  }
-  if (!(rest >= 0)) return std::nullopt;
-  result.shares[index[0]] = rest;
-  result.squared = result.at.squaredNorm();
-  return result;
+  for (std::size_t k = 0; k < 3; ++k) along[k] = -last.dot(edge[(k + 1) % 3].cross(edge[(k + 2) % 3])) / volume;
+  consider(along);
 }
 
-OnSimplex nearest_on_simplex(std::span<const Vertex> vertices) {
-  OnSimplex best;
-  for (unsigned members = 1; members < 1U << vertices.size(); ++members) {
-    const auto candidate = nearest_on_face(vertices, members);
-    if (candidate && candidate->squared < best.squared) best = *candidate;
+/// Shares of the nearest points of two segments, of their second ends.
+std::array<double, 2> nearest_on_segments(std::span<const Point> first, std::span<const Point> second) {
+  const Point d = first[1] - first[0], e = second[1] - second[0], r = first[0] - second[0];
+  const double dd = d.squaredNorm(), ee = e.squaredNorm(), de = d.dot(e), dr = d.dot(r), er = e.dot(r);
+  const auto share = [](double part, double whole) { return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0; };
+  double s = share(de * er - dr * ee, dd * ee - de * de);  // where the lines are nearest
+  double t = ee > 0 ? (de * s + er) / ee : 0.0;
+  if (t < 0 || t > 1) {
+    t = std::clamp(t, 0.0, 1.0);
+    s = share(de * t - dr, dd);
+  } else if (!(ee > 0)) {
+    s = share(-dr, dd);
   }
-  return best;
+  return {s, t};
+}
+
+/// Of two segments. @returns false, and nothing, where rounding spoils it
+bool find_nearest_of_segments(std::span<const Point> first, std::span<const Point> second, NearestPoints& result) {
+  constexpr double kExact = 1 - 1e-12;
+  const auto [s, t] = nearest_on_segments(first, second);
+  const Point apart = (first[0] + s * (first[1] - first[0])) - (second[0] + t * (second[1] - second[0]));
+  const double squared = apart.squaredNorm();
+  if (!(gap_along(apart, first, second) > kExact * squared)) return false;
+  result.distance = std::sqrt(squared);
+  result.apart = apart;
+  result.first[0] = 1 - s;
+  result.first[1] = s;
+  result.second[0] = 1 - t;
+  result.second[1] = t;
+  return true;
 }
 
 }  // namespace
@@ -93,62 +144,60 @@ NearestPoints nearest_points(std::span<const Point> first, std::span<const Point
   constexpr int kMostSteps = 100;
   constexpr double kEnough = 1e-14;  // of the squared distance
   constexpr double kMeet = 1e-28;    // of the squared distance of two points: all that rounding leaves where hulls meet
-  std::vector<Vertex> simplex{{first[0] - second[0], 0, 0}};
-  OnSimplex nearest = nearest_on_simplex(simplex);
+  NearestPoints result;
+  result.first.resize(first.size(), 0.0);
+  result.second.resize(second.size(), 0.0);
+  if (first.size() == 2 && second.size() == 2 && find_nearest_of_segments(first, second, result)) return result;
+  Simplex nearest;
+  nearest.vertices[nearest.size++] = {first[0] - second[0], 0, 0};
+  find_nearest(nearest);
   for (int step = 0; step < kMostSteps; ++step) {
     const Point down = -nearest.at;
     const std::size_t i = farthest(first, down);
-    const std::size_t j = farthest(second, -down);
+    const std::size_t j = farthest(second, nearest.at);
     const Vertex next{first[i] - second[j], i, j};
-    const bool is_known = std::ranges::any_of(simplex, [&](const Vertex& v) { return v.first == i && v.second == j; });
-    if (is_known || nearest.squared - next.at.dot(nearest.at) <= kEnough * nearest.squared) break;
-    std::vector<Vertex> kept;
-    for (std::size_t k = 0; k < simplex.size(); ++k) {
-      if (nearest.shares[k] > 0) kept.push_back(simplex[k]);
+    Simplex closer;
+    bool is_known = false;
+    for (std::size_t k = 0; k < nearest.size; ++k) {
+      const Vertex& v = nearest.vertices[k];
+      is_known = is_known || (v.first == i && v.second == j);
+      if (nearest.shares[k] > 0) closer.vertices[closer.size++] = v;
     }
-    if (kept.size() == 4) {  // the origin is inside
+    if (is_known || nearest.squared - next.at.dot(nearest.at) <= kEnough * nearest.squared) break;
+    if (closer.size == 4) {  // the origin is inside
       nearest.squared = 0;
       nearest.at = Point::Zero();
       break;
     }
-    kept.push_back(next);
-    const OnSimplex closer = nearest_on_simplex(kept);
+    closer.vertices[closer.size++] = next;
+    find_nearest(closer);
     if (!(closer.squared < nearest.squared)) break;
-    simplex = std::move(kept);
     nearest = closer;
   }
   double largest = 0;
-  for (const Vertex& v : simplex) largest = std::max(largest, v.at.squaredNorm());
-  if (nearest.squared <= kMeet * largest) nearest = {Point::Zero(), nearest.shares, 0};
-  NearestPoints result{std::sqrt(nearest.squared), nearest.at, std::vector<double>(first.size()),
-                       std::vector<double>(second.size())};
-  for (std::size_t k = 0; k < simplex.size(); ++k) {
-    result.first[simplex[k].first] += nearest.shares[k];
-    result.second[simplex[k].second] += nearest.shares[k];
+  for (std::size_t k = 0; k < nearest.size; ++k) {
+    largest = std::max(largest, nearest.vertices[k].at.squaredNorm());
+  }
+  if (nearest.squared <= kMeet * largest) {
+    nearest.squared = 0;
+    nearest.at = Point::Zero();
+  }
+  result.distance = std::sqrt(nearest.squared);
+  result.apart = nearest.at;
+  for (std::size_t k = 0; k < nearest.size; ++k) {
+    result.first[nearest.vertices[k].first] += nearest.shares[k];
+    result.second[nearest.vertices[k].second] += nearest.shares[k];
   }
   return result;
 }
 
 // ---- Overlap --------------------------------------------------------------------------------------------------------
 
-namespace {
-
-/// How far the first has to be moved along a unit vector until a plane across it is between the two.
-double overlap_along(std::span<const Point> first, std::span<const Point> second, const Point& u) {
-  double least = std::numeric_limits<double>::infinity();
-  double greatest = -least;
-  for (const Point& a : first) least = std::min(least, u.dot(a));
-  for (const Point& b : second) greatest = std::max(greatest, u.dot(b));
-  return greatest - least;
-}
-
-}  // namespace
-
 Overlap overlap(std::span<const Point> first, std::span<const Point> second) {
   constexpr int kDirections = 600;
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
   std::vector<Overlap> tried;
-  const auto consider = [&](const Point& u) { tried.push_back({overlap_along(first, second, u), u}); };
+  const auto consider = [&](const Point& u) { tried.push_back({-gap_along(u, first, second), u}); };
   for (int k = 0; k < kDirections; ++k) {  // points that are spread over a sphere
     const double z = 1 - (2 * k + 1.0) / kDirections;
     const double across = std::sqrt(1 - z * z);
@@ -173,7 +222,7 @@ Overlap overlap(std::span<const Point> first, std::span<const Point> second) {
       const NearestPoints nearest = nearest_points(moved, second);
       if (!(nearest.distance > 0)) break;
       const Point u = nearest.apart.normalized();
-      const double depth = overlap_along(first, second, u);
+      const double depth = -gap_along(u, first, second);
       if (!(depth < here.depth)) break;
       here = {depth, u};
     }
@@ -187,13 +236,19 @@ Overlap overlap(std::span<const Point> first, std::span<const Point> second) {
 
 namespace {
 
-/// The two ends of a cable's checked part, in W.
-std::vector<Point> cable_ends(const BodyModel<double>& bodies, const Model<double>& model, const RigidPose& pose,
-                              std::size_t i) {
-  const Point a = model.p_WA[i];
-  const Point b = pose.p + pose.q.toRotationMatrix() * model.p_PB[i];
+/// Two points, of which one may be the other.
+using Line = std::array<Point, 2>;
+
+/// The two ends of the checked part of a cable from a to b.
+Line cable_ends(const BodyModel<double>& bodies, const Point& a, const Point& b, std::size_t i) {
   const Point along = (b - a).normalized();
   return {a + bodies.cable_free[i][0] * along, b - bodies.cable_free[i][1] * along};
+}
+
+/// The same at a pose, in W.
+Points cable_ends(const BodyModel<double>& bodies, const Model<double>& model, const RigidPose& pose, std::size_t i) {
+  const Line ends = cable_ends(bodies, model.p_WA[i], pose.p + pose.q.toRotationMatrix() * model.p_PB[i], i);
+  return {ends[0], ends[1]};
 }
 
 double distance_in_cone(const BodyModel<double>& bodies, const Model<double>& model, const RigidPose& pose,
@@ -204,16 +259,30 @@ double distance_in_cone(const BodyModel<double>& bodies, const Model<double>& mo
   return taut::distance_in_cone<double>(cone, {d(0), d(1), d(2)});
 }
 
-std::vector<Point> carried(const ConvexBody<double>& body, const RigidPose& pose) {
+Points carried(const ConvexBody<double>& body, const RigidPose& pose) {
   const Matrix3<double> r = pose.q.toRotationMatrix();
-  std::vector<Point> points;
-  points.reserve(body.points.size());
+  Points points;
   for (const Point& x : body.points) points.emplace_back(pose.p + r * x);
   return points;
 }
 
+/// The sum of both bodies' radii.
+double radii(const BodyModel<double>& bodies, const CheckedPair<double>& pair) {
+  const double first =
+      pair.kind == PairClass::kPlatformObstacles ? bodies.platform[pair.first].radius : bodies.cable_radius[pair.first];
+  switch (pair.kind) {
+    case PairClass::kCablesCables: return first + bodies.cable_radius[pair.second];
+    case PairClass::kCablesPlatform: return first + bodies.platform[pair.second].radius;
+    case PairClass::kExitCones: return first;
+    case PairClass::kPlatformObstacles:
+    case PairClass::kCablesObstacles: break;
+  }
+  const auto* second = std::get_if<ConvexBody<double>>(&bodies.obstacles[pair.second]);
+  return second != nullptr ? first + second->radius : first;
+}
+
 /// As multiples of 1/kWhole that sum to kWhole.
-std::vector<std::int64_t> rounded_shares(const std::vector<double>& shares) {
+std::vector<std::int64_t> rounded_shares(std::span<const double> shares) {
   std::vector<std::int64_t> result;
   if (shares.empty()) return result;
   for (const double share : shares) {
@@ -232,7 +301,7 @@ Direction rounded_direction(const Point& along, bool in_platform, int largest) {
   Direction result{in_platform, {}};
   int divisor = 0;
   for (int k = 0; k < 3; ++k) {
-    const int x = static_cast<int>(std::lround(scaled(k)));
+    const int x = static_cast<int>(scaled(k) < 0 ? scaled(k) - 0.5 : scaled(k) + 0.5);
     result.u[static_cast<std::size_t>(k)] = x;
     divisor = std::gcd(divisor, x);
   }
@@ -266,7 +335,6 @@ struct BodySampler::Found {
   NearestPoints nearest;
   double needed = 0;  ///< radii, and how far the pair has to be apart here
   bool is_half_space = false;
-  std::array<std::vector<Point>, 2> points;                   ///< of either body; of neither a half-space nor a mesh
   std::array<std::optional<std::uint32_t>, 2> elements = {};  ///< of meshes
   std::optional<std::size_t> inside = {};                     ///< as in PointPair; then the distance is negative
 };
@@ -276,10 +344,14 @@ const HalfSpace<double>* BodySampler::half_space(const CheckedPair<double>& pair
   return is_of_obstacle ? std::get_if<HalfSpace<double>>(&bodies_.obstacles[pair.second]) : nullptr;
 }
 
+bool BodySampler::has_own_direction(std::size_t n) const {
+  const CheckedPair<double>& pair = bodies_.pairs.at(n);
+  return half_space(pair) != nullptr || pair.kind == PairClass::kExitCones;
+}
+
 bool BodySampler::needs_list(std::size_t n) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
-  if (pair.kind == PairClass::kCablesCables || pair.kind == PairClass::kExitCones || half_space(pair) != nullptr)
-    return false;
+  if (pair.kind == PairClass::kCablesCables || has_own_direction(n)) return false;
   const auto is_mesh = [](const ConvexBody<double>& body) { return body.mesh != nullptr; };
   if (pair.kind == PairClass::kCablesPlatform) return is_mesh(bodies_.platform[pair.second]);
   return is_mesh(std::get<ConvexBody<double>>(bodies_.obstacles[pair.second])) ||
@@ -292,7 +364,7 @@ namespace {
 BodyInFrame in_frame(const ConvexBody<double>& body, const RigidPose* pose) {
   BodyInFrame result;
   if (body.mesh == nullptr) {
-    result.points = pose != nullptr ? carried(body, *pose) : body.points;
+    result.points = pose != nullptr ? carried(body, *pose) : Points(body.points.begin(), body.points.end());
     return result;
   }
   const PlacedMesh<double>& mesh = *body.mesh;
@@ -337,12 +409,10 @@ BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose
     return found;
   }
   const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
-  found.needed = required_distance(pair, pose.p).at_most + (pair.kind == PairClass::kPlatformObstacles
-                                                                ? bodies_.platform[pair.first].radius
-                                                                : bodies_.cable_radius[pair.first]);
+  found.needed = required_distance(pair, pose.p).at_most + radii(bodies_, pair);
   if (const auto* half = half_space(pair)) {
     const Point normal = half->normal.normalized();
-    std::vector<Point> points = bodies[0].points;
+    Points points = bodies[0].points;
     if (bodies[0].mesh != nullptr) {
       found.elements[0] = lowest_element(bodies[0], normal);
       points = points_of(bodies[0], found.elements[0]);
@@ -355,17 +425,8 @@ BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose
     found.nearest.first[lowest] = 1;
     return found;
   }
-  switch (pair.kind) {
-    case PairClass::kCablesCables: found.needed += bodies_.cable_radius[pair.second]; break;
-    case PairClass::kCablesPlatform: found.needed += bodies_.platform[pair.second].radius; break;
-    case PairClass::kExitCones: break;
-    case PairClass::kPlatformObstacles:
-    case PairClass::kCablesObstacles:
-      found.needed += std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]).radius;
-  }
   if (bodies[0].mesh == nullptr && bodies[1].mesh == nullptr) {
     found.nearest = nearest_points(bodies[0].points, bodies[1].points);
-    found.points = {bodies[0].points, bodies[1].points};
     if (!pair.zones.empty() && !(found.nearest.distance > 0)) {
       const Overlap deep = overlap(bodies[0].points, bodies[1].points);
       found.nearest.distance = -deep.depth;
@@ -393,15 +454,6 @@ double BodySampler::gap(const Model<double>& model, const RigidPose& pose, std::
   return found.nearest.distance - found.needed;
 }
 
-namespace {
-
-/// How far apart along a unit vector.
-double gap_along(const Point& u, const std::vector<Point>& first, const std::vector<Point>& second) {
-  return u.dot(first[farthest(first, -u)]) - u.dot(second[farthest(second, u)]);
-}
-
-}  // namespace
-
 /// Whether a body of the platform and an obstacle stay farther apart along a vector of P than along the same of W.
 bool BodySampler::is_better_in_platform(const CheckedPair<double>& pair, const Point& along, const RigidPose& pose,
                                         std::span<const RigidPose> around) const {
@@ -411,7 +463,7 @@ bool BodySampler::is_better_in_platform(const CheckedPair<double>& pair, const P
   const std::vector<Point>& obstacle = std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]).points;
   double of_world = kInfinity, of_platform = kInfinity;
   for (const RigidPose& there : around) {
-    const std::vector<Point> body = carried(bodies_.platform[pair.first], there);
+    const Points body = carried(bodies_.platform[pair.first], there);
     of_world = std::min(of_world, gap_along(u, body, obstacle));
     of_platform = std::min(of_platform, gap_along(there.q.toRotationMatrix() * v, body, obstacle));
   }
@@ -440,12 +492,7 @@ std::vector<Direction> BodySampler::directions(const Model<double>& model, const
     return result;
   }
   const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
-  double needed = pair.clearance;  // a mesh has no radius
-  if (pair.kind != PairClass::kPlatformObstacles) {
-    needed += bodies_.cable_radius[pair.first];
-  } else {
-    needed += bodies_.platform[pair.first].radius + std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]).radius;
-  }
+  const double needed = pair.clearance + radii(bodies_, pair);
   const bool in_platform = is_best_in_platform(pair);
   for (Point along : covering_directions(bodies[0], bodies[1], needed, share)) {
     if (in_platform) along = pose.q.toRotationMatrix().transpose() * along;
@@ -457,38 +504,26 @@ std::vector<Direction> BodySampler::directions(const Model<double>& model, const
 
 namespace {
 
-/// Two points, of which one may be the other.
-using Line = std::array<Point, 2>;
-
 /// Between the nearest points of two segments, from the second to the first.
 Point between_segments(const Line& first, const Line& second) {
-  const Point d = first[1] - first[0], e = second[1] - second[0], r = first[0] - second[0];
-  const double dd = d.squaredNorm(), ee = e.squaredNorm(), de = d.dot(e), dr = d.dot(r), er = e.dot(r);
-  const auto share = [](double part, double whole) { return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0; };
-  double s = share(de * er - dr * ee, dd * ee - de * de);  // where the lines are nearest
-  double t = ee > 0 ? (de * s + er) / ee : 0.0;
-  if (t < 0 || t > 1) {
-    t = std::clamp(t, 0.0, 1.0);
-    s = share(de * t - dr, dd);
-  } else if (!(ee > 0)) {
-    s = share(-dr, dd);
-  }
-  return r + s * d - t * e;
+  const auto [s, t] = nearest_on_segments(first, second);
+  return (first[0] + s * (first[1] - first[0])) - (second[0] + t * (second[1] - second[0]));
 }
 
 }  // namespace
 
-/// Cables from anchor to anchor, and the middles of bodies, in W.
+/// Where the platform is, the checked parts of cables, and the middles of bodies, in W.
 struct BodySampler::Sketch {
+  Point p_WP;
   Matrix3<double> r_WP;
   std::array<Line, kCables> cables;
   std::vector<Point> middles;  ///< of the platform's bodies
 };
 
 BodySampler::Sketch BodySampler::sketch(const Model<double>& model, const RigidPose& pose) const {
-  Sketch result{pose.q.toRotationMatrix(), {}, {}};
+  Sketch result{pose.p, pose.q.toRotationMatrix(), {}, {}};
   for (std::size_t i = 0; i < kCables; ++i) {
-    result.cables[i] = {model.p_WA[i], pose.p + result.r_WP * model.p_PB[i]};
+    result.cables[i] = cable_ends(bodies_, model.p_WA[i], pose.p + result.r_WP * model.p_PB[i], i);
   }
   for (const ConvexBody<double>& body : bodies_.platform) {
     result.middles.emplace_back(pose.p + result.r_WP * body.centre);
@@ -496,10 +531,9 @@ BodySampler::Sketch BodySampler::sketch(const Model<double>& model, const RigidP
   return result;
 }
 
-/// Of a half-space, its gap is not looked for.
-BodySampler::RoughDirection BodySampler::rough_direction(const Sketch& at, std::size_t n) const {
+/// Between about the nearest points of a pair, from the second to the first, in W. @pre no half-space, no exit cone
+BodySampler::RoughGap BodySampler::rough_gap(const Sketch& at, std::size_t n) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
-  if (half_space(pair) != nullptr || pair.kind == PairClass::kExitCones) return {};
   Line first, second;
   double needed = pair.clearance;
   if (pair.kind == PairClass::kPlatformObstacles) {
@@ -519,38 +553,88 @@ BodySampler::RoughDirection BodySampler::rough_direction(const Sketch& at, std::
     const auto& body = std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]);
     const bool is_segment = body.points.size() == 2;
     second = is_segment ? Line{body.points[0], body.points[1]} : Line{body.centre, body.centre};
-    needed += body.reach;
+    needed += is_segment ? body.radius : body.reach;
   }
-  Point along = between_segments(first, second);
-  const double lost = ((first[1] - first[0]).norm() + (second[1] - second[0]).norm()) / (2 * Direction::kCoarse);
-  const double gap = along.norm() - needed - lost;
-  const bool in_platform = is_best_in_platform(pair);
-  if (in_platform) along = at.r_WP.transpose() * along;
-  return {rounded_direction(along, in_platform, Direction::kCoarse), gap};
+  const Point apart = between_segments(first, second);
+  const double size = (first[1] - first[0]).lpNorm<1>() + (second[1] - second[0]).lpNorm<1>();
+  return {apart, apart.norm() - needed, size / (2 * Direction::kCoarse)};
+}
+
+Direction BodySampler::rough_direction(const Sketch& at, std::size_t n, const Point& apart) const {
+  const bool in_platform = is_best_in_platform(bodies_.pairs.at(n));
+  return rounded_direction(in_platform ? Point(at.r_WP.transpose() * apart) : apart, in_platform, Direction::kCoarse);
 }
 
 Direction BodySampler::rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
-  return rough_direction(sketch(model, pose), n).direction;
+  const Sketch at = sketch(model, pose);
+  return has_own_direction(n) ? Direction{} : rough_direction(at, n, rough_gap(at, n).apart);
+}
+
+/// How much farther than its clearance a pair is apart along a direction. @pre no half-space, exit cone or mesh
+double BodySampler::clear_along(const Sketch& at, std::size_t n, const Direction& direction) const {
+  const CheckedPair<double>& pair = bodies_.pairs.at(n);
+  Point u(direction.u[0], direction.u[1], direction.u[2]);
+  u.normalize();
+  if (direction.in_platform) u = at.r_WP * u;
+  const Point u_P = at.r_WP.transpose() * u;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto least = [](std::span<const Point> points, const Point& along) {
+    double result = kInfinity;
+    for (const Point& x : points) result = std::min(result, along.dot(x));
+    return result;
+  };
+  const double first = pair.kind == PairClass::kPlatformObstacles
+                           ? u.dot(at.p_WP) + least(bodies_.platform[pair.first].points, u_P)
+                           : least(at.cables[pair.first], u);
+  double beyond = 0;  // least of the second, along −u
+  switch (pair.kind) {
+    case PairClass::kCablesCables: beyond = least(at.cables[pair.second], -u); break;
+    case PairClass::kCablesPlatform: beyond = least(bodies_.platform[pair.second].points, -u_P) - u.dot(at.p_WP); break;
+    default: beyond = least(std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]).points, -u);
+  }
+  return first + beyond - radii(bodies_, pair) - pair.clearance;
 }
 
 PairDirections BodySampler::first_directions(const Model<double>& model, const RigidPose& middle,
                                              const std::array<RigidPose, 2>& ends) const {
-  const Sketch at = sketch(model, middle);
+  constexpr int kMostSharpened = 3;
+  const Sketch at_middle = sketch(model, middle);
+  const std::array<Sketch, 2> at_ends{sketch(model, ends[0]), sketch(model, ends[1])};
+  const double most = most_lost(model, middle);
   double moved = 0;
   for (const RigidPose& end : ends) {
     moved = std::max(moved, (end.p - middle.p).norm() + end.q.angularDistance(middle.q) * reach_);
   }
   PairDirections result;
   result.single.reserve(bodies_.pairs.size());
+  std::vector<double> gaps(bodies_.pairs.size(), std::numeric_limits<double>::infinity());
+  std::vector<bool> is_sharp(bodies_.pairs.size());
+  const auto choose = [&](std::size_t n, const Direction& direction) {
+    result.single[n] = direction;
+    gaps[n] = std::min(clear_along(at_ends[0], n, direction), clear_along(at_ends[1], n, direction));
+  };
+  const auto sharpen = [&](std::size_t n) {
+    is_sharp[n] = true;
+    if (const auto sharp = direction(model, middle, n, Direction::kFine, ends)) choose(n, *sharp);
+  };
   for (std::size_t n = 0; n < bodies_.pairs.size(); ++n) {
-    const RoughDirection rough = rough_direction(at, n);
-    Direction chosen = rough.direction;
-    const bool has_list = needs_list(n);
-    if (!(rough.gap > moved) && !has_list && !is_of_half_space(chosen)) {
-      chosen = direction(model, middle, n, Direction::kFine, ends).value_or(chosen);
+    Direction& chosen = result.single.emplace_back();
+    if (has_own_direction(n)) continue;
+    const RoughGap rough = rough_gap(at_middle, n);
+    chosen = rough_direction(at_middle, n, rough.apart);
+    gaps[n] = rough.gap - rough.lost - moved;
+    if (needs_list(n)) {
+      result.lists[n] = {chosen};
+    } else if (!(gaps[n] > most)) {
+      choose(n, chosen);
+      if (!(gaps[n] > most)) sharpen(n);
     }
-    result.single.push_back(chosen);
-    if (has_list) result.lists[n] = {chosen};
+  }
+  // The least of all gaps is what a proof can claim.
+  for (int time = 0; time < kMostSharpened && !gaps.empty(); ++time) {
+    const auto n = static_cast<std::size_t>(std::ranges::min_element(gaps) - gaps.begin());
+    if (is_sharp[n] || needs_list(n) || !std::isfinite(gaps[n])) break;
+    sharpen(n);
   }
   return result;
 }
@@ -633,8 +717,10 @@ std::optional<BodySampler::Touching> BodySampler::touching(const Model<double>& 
   Touching result{{rounded_shares(found.nearest.first), {}, found.elements}, {}};
   if (found.is_half_space) return result;
   result.nearest.second = rounded_shares(found.nearest.second);
-  const auto& [first, second] = found.points;
-  if (found.nearest.distance > kMeeting || first.size() * second.size() < 4) return result;
+  if (found.nearest.distance > kMeeting || needs_list(pair)) return result;
+  const std::array<BodyInFrame, 2> bodies = in_world(model, pose, pair);
+  const Points &first = bodies[0].points, &second = bodies[1].points;
+  if (first.size() * second.size() < 4) return result;
   if (const auto vertices = around_zero(first, second, std::max(0.0, -found.needed))) {
     auto& around = result.around.emplace();
     for (std::size_t k = 0; k < 4; ++k) {
@@ -653,12 +739,11 @@ double gap_of_boxes(const BodyModel<double>& bodies, const Model<double>& model,
   const bool is_against_platform = pair.kind == PairClass::kCablesPlatform;
   const ConvexBody<double>& second =
       is_against_platform ? bodies.platform[pair.second] : std::get<ConvexBody<double>>(bodies.obstacles[pair.second]);
-  const std::vector<Point> of_first =
+  const Points of_first =
       is_of_platform ? carried(bodies.platform[pair.first], pose) : cable_ends(bodies, model, pose, pair.first);
-  const std::vector<Point> of_second = is_against_platform ? carried(second, pose) : second.points;
-  const double radii =
-      (is_of_platform ? bodies.platform[pair.first].radius : bodies.cable_radius[pair.first]) + second.radius;
-  return nearest_points(of_first, of_second).distance - radii - pair.clearance;
+  const Points of_second =
+      is_against_platform ? carried(second, pose) : Points(second.points.begin(), second.points.end());
+  return nearest_points(of_first, of_second).distance - radii(bodies, pair) - pair.clearance;
 }
 
 }  // namespace
@@ -685,7 +770,7 @@ double BodySampler::lost(const Model<double>& model, const RigidPose& pose, std:
     return of.base[pair.first] + of.anchor[pair.first] + of.position + of.turn * lever;
   }
   std::array<double, 2> moved{0, 0};  // in W, in P
-  const auto add_cable = [&](std::size_t i, const std::vector<double>& shares) {
+  const auto add_cable = [&](std::size_t i, std::span<const double> shares) {
     if (shares.size() != 2) return;
     const double base = pair.shares_base ? 0 : of.base[i], anchor = pair.shares_platform ? 0 : of.anchor[i];
     const double by_pose = of.position + of.turn * model.p_PB[i].norm();
@@ -703,6 +788,14 @@ double BodySampler::lost(const Model<double>& model, const RigidPose& pose, std:
 double BodySampler::room(const Model<double>& model, const RigidPose& pose, std::size_t pair) const {
   const Found found = find(model, pose, pair);
   return found.nearest.distance - found.needed - lost(model, pose, pair, found);
+}
+
+/// A gap that is not larger than that of a pair with a mesh.
+double BodySampler::rough_gap_of_mesh(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
+  const CheckedPair<double>& pair = bodies_.pairs[n];
+  const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
+  const double gap = half_of_distance(bodies[0], bodies[1]) - radii(bodies_, pair) - pair.clearance;
+  return gap > 0 && point_inside(bodies[0], bodies[1]) ? -gap : gap;
 }
 
 /// No less than lost() of any pair.
@@ -727,8 +820,14 @@ bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Ca
           bodies_moving * ((pose.p - last->pose.p).norm() + pose.q.angularDistance(last->pose.q) * reach_);
       if (moved < last->gap) continue;
     }
-    // Boxes around meshes, and balls around other bodies, may tell at once.
-    double left = (needs_list(n) ? gap_of_boxes(bodies_, model, pose, n) : rough_direction(at, n).gap) - most;
+    // Boxes around meshes, and balls around other bodies, may tell at once; else a part of a mesh's distance.
+    double left = 0;
+    if (needs_list(n)) {
+      left = gap_of_boxes(bodies_, model, pose, n) - most;
+      if (!(left > 0)) left = rough_gap_of_mesh(model, pose, n) - most;
+    } else if (!has_own_direction(n)) {
+      left = rough_gap(at, n).gap - most;
+    }
     if (!(left > 0)) left = room(model, pose, n);
     last = {left, pose};
     if (!(last->gap > 0)) return false;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,11 +14,20 @@
 
 namespace taut {
 
+/// As many as a box has corners take no memory of their own.
+template <class T>
+struct FewOf : boost::container::small_vector<T, 8> {
+  using boost::container::small_vector<T, 8>::small_vector;
+  explicit(false) operator std::span<const T>() const { return {this->data(), this->size()}; }
+};
+using Points = FewOf<Vector3<double>>;
+using Shares = FewOf<double>;
+
 /// Nearest points of the convex hulls of two sets of points (Gilbert, Johnson and Keerthi's algorithm).
 struct NearestPoints {
-  double distance = 0;                ///< 0 where the hulls meet, up to rounding
-  Vector3<double> apart{0, 0, 0};     ///< from the second's nearest point to the first's
-  std::vector<double> first, second;  ///< shares of the points, nonnegative, summing to 1
+  double distance = 0;             ///< 0 where the hulls meet, up to rounding
+  Vector3<double> apart{0, 0, 0};  ///< from the second's nearest point to the first's
+  Shares first, second;            ///< of the points, nonnegative, summing to 1
 };
 [[nodiscard]] NearestPoints nearest_points(std::span<const Vector3<double>> first,
                                            std::span<const Vector3<double>> second);
@@ -57,8 +67,8 @@ class BodySampler {
                                                   int largest, double share, std::span<const RigidPose> around) const;
   /// One along which a pair may well be apart there, from its bodies' axes and middles: much cheaper.
   [[nodiscard]] Direction rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
-  /// Of all pairs those to try first on a way from end to end: rough ones where it seems that they will do, else those
-  /// along which pairs are farthest apart in the middle.
+  /// Of all pairs those to try first on a way from end to end: rough ones where it seems that they will do; else, and
+  /// of the nearest pairs, those along which they are farthest apart in the middle.
   [[nodiscard]] PairDirections first_directions(const Model<double>& model, const RigidPose& middle,
                                                 const std::array<RigidPose, 2>& ends) const;
   /// Its nearest points there.
@@ -87,20 +97,27 @@ class BodySampler {
  private:
   /// The second body of a pair, where it is one; else null.
   [[nodiscard]] const HalfSpace<double>* half_space(const CheckedPair<double>& pair) const;
+  /// Whether a pair needs no direction: its half-space or cone has one.
+  [[nodiscard]] bool has_own_direction(std::size_t pair) const;
   [[nodiscard]] bool is_better_in_platform(const CheckedPair<double>& pair, const Vector3<double>& along,
                                            const RigidPose& pose, std::span<const RigidPose> around) const;
   [[nodiscard]] std::array<BodyInFrame, 2> in_world(const Model<double>& model, const RigidPose& pose,
                                                     std::size_t pair) const;
   struct Sketch;
   [[nodiscard]] Sketch sketch(const Model<double>& model, const RigidPose& pose) const;
-  /// A direction, and how far apart balls around bodies and whole cables are along it, less the clearance; a guess.
-  struct RoughDirection {
-    Direction direction;
-    double gap = 0;
+  /// How far apart balls around bodies, and cables, are.
+  struct RoughGap {
+    Vector3<double> apart{0, 0, 0};
+    double gap = 0;   ///< its length less the clearance
+    double lost = 0;  ///< about how much of it along rough_direction(), at most
   };
-  [[nodiscard]] RoughDirection rough_direction(const Sketch& at, std::size_t pair) const;
+  [[nodiscard]] RoughGap rough_gap(const Sketch& at, std::size_t pair) const;
+  /// @param apart  RoughGap::apart
+  [[nodiscard]] Direction rough_direction(const Sketch& at, std::size_t pair, const Vector3<double>& apart) const;
+  [[nodiscard]] double clear_along(const Sketch& at, std::size_t pair, const Direction& direction) const;
   struct Found;
   [[nodiscard]] Found find(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
+  [[nodiscard]] double rough_gap_of_mesh(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
   [[nodiscard]] double lost(const Model<double>& model, const RigidPose& pose, std::size_t pair,
                             const Found& found) const;
   [[nodiscard]] double most_lost(const Model<double>& model, const RigidPose& pose) const;

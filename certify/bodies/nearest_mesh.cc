@@ -39,7 +39,7 @@ class Side {
   [[nodiscard]] Bound ball(const MeshPart& part) const {
     if (part.mesh == nullptr) return all_;
     if (part.is_element) {
-      const std::vector<Point> x = points(part);
+      const Points x = points(part);
       Bound result{(x[0] + x[1] + x[2]) / 3};
       for (const Point& corner : x) result.radius = std::max(result.radius, (corner - result.centre).norm());
       return result;
@@ -50,12 +50,12 @@ class Side {
   }
 
   /// The corners of a node, the points of an element or those of the whole body.
-  [[nodiscard]] std::vector<Point> points(const MeshPart& part) const {
+  [[nodiscard]] Points points(const MeshPart& part) const {
     if (part.mesh == nullptr || part.is_element) {
       return points_of(body_, part.is_element ? std::optional(part.index) : std::nullopt);
     }
     const MeshBox& box = part.mesh->nodes()[part.index].box;
-    std::vector<Point> corners;
+    Points corners;
     for (unsigned corner = 0; corner < 8; ++corner) {
       Point f;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -81,58 +81,99 @@ double distance_to_segment(const Point& x, const Point& a, const Point& b) {
 
 }  // namespace
 
-std::vector<Point> points_of(const BodyInFrame& body, const std::optional<std::uint32_t>& element) {
+Points points_of(const BodyInFrame& body, const std::optional<std::uint32_t>& element) {
   if (!element) return body.points;
-  std::vector<Point> result;
+  Points result;
   for (const auto& corner : body.mesh->points(*element)) {
     result.emplace_back(body.origin + body.axes * vector(corner));
   }
   return result;
 }
 
-NearestElements nearest_elements(const BodyInFrame& first, const BodyInFrame& second) {
-  const Side a(first), b(second);
+namespace {
+
+/// The nearest elements of two bodies, best first. Each part of either is inside of a ball and of the hull of some
+/// points.
+class ElementSearch {
+ public:
+  ElementSearch(const BodyInFrame& first, const BodyInFrame& second)
+      : first_(first), a_(first), b_(second), scale_(b_.scale() / a_.scale()) {
+    best_.nearest.distance = std::numeric_limits<double>::infinity();
+    consider(a_.root(), b_.root());
+  }
+
+  /// Until the nearest elements are known.
+  void run() {
+    while (!open_.empty() && open_.top().bound < best_.nearest.distance) open_nearest();
+  }
+  /// Until nothing can be nearer than half of the distance.
+  void run_half_way() {
+    while (!open_.empty() && open_.top().bound < 0.5 * std::min(best_.nearest.distance, no_farther_)) open_nearest();
+  }
+
+  [[nodiscard]] const NearestElements& best() const { return best_; }
+  [[nodiscard]] double lower_bound() const {
+    return open_.empty() ? best_.nearest.distance : std::min(best_.nearest.distance, open_.top().bound);
+  }
+
+ private:
   struct Task {
     MeshPart first, second;
     double bound;
     bool operator<(const Task& other) const { return bound > other.bound; }  // the least comes first
   };
-  NearestElements best;
-  best.nearest.distance = std::numeric_limits<double>::infinity();
-  const auto rough_bound = [&](const MeshPart& x, const MeshPart& y) {
-    const Bound p = a.ball(x), q = b.ball(y);
-    if (x.mesh == nullptr && first.points.size() == 2) {
-      return distance_to_segment(q.centre, first.points[0], first.points[1]) - q.radius;
-    }
-    return (p.centre - q.centre).norm() - p.radius - q.radius;
-  };
-  std::priority_queue<Task> open;
-  const auto consider = [&](const MeshPart& x, const MeshPart& y) {
-    double bound = rough_bound(x, y);
-    if (bound >= best.nearest.distance) return;
-    const bool are_last = !x.may_open() && !y.may_open();
-    NearestPoints nearest = nearest_points(a.points(x), b.points(y));
-    if (!are_last) {
-      bound = std::max(bound, nearest.distance);
-      if (bound < best.nearest.distance) open.push({x, y, bound});
-      return;
-    }
-    if (!(nearest.distance < best.nearest.distance)) return;
-    best.nearest = std::move(nearest);
-    best.elements = {x.is_element ? std::optional(x.index) : std::nullopt,
-                     y.is_element ? std::optional(y.index) : std::nullopt};
-  };
-  consider(a.root(), b.root());
-  while (!open.empty() && open.top().bound < best.nearest.distance) {
-    const Task task = open.top();
-    open.pop();
-    if (opens_first(task.first, task.second, b.scale() / a.scale())) {
+
+  void open_nearest() {
+    const Task task = open_.top();
+    open_.pop();
+    if (opens_first(task.first, task.second, scale_)) {
       for (const MeshPart& part : parts_of(task.first)) consider(part, task.second);
     } else {
       for (const MeshPart& part : parts_of(task.second)) consider(task.first, part);
     }
   }
-  return best;
+
+  void consider(const MeshPart& x, const MeshPart& y) {
+    const Bound p = a_.ball(x), q = b_.ball(y);
+    const double middles = (p.centre - q.centre).norm();
+    no_farther_ = std::min(no_farther_, middles + p.radius + q.radius);
+    const bool is_of_cable = x.mesh == nullptr && first_.points.size() == 2;
+    double bound = is_of_cable ? distance_to_segment(q.centre, first_.points[0], first_.points[1]) - q.radius
+                               : middles - p.radius - q.radius;
+    if (bound >= best_.nearest.distance) return;
+    const bool are_last = !x.may_open() && !y.may_open();
+    NearestPoints nearest = nearest_points(a_.points(x), b_.points(y));
+    if (!are_last) {
+      bound = std::max(bound, nearest.distance);
+      if (bound < best_.nearest.distance) open_.push({x, y, bound});
+      return;
+    }
+    if (!(nearest.distance < best_.nearest.distance)) return;
+    best_.nearest = std::move(nearest);
+    best_.elements = {x.is_element ? std::optional(x.index) : std::nullopt,
+                      y.is_element ? std::optional(y.index) : std::nullopt};
+  }
+
+  const BodyInFrame& first_;
+  Side a_, b_;
+  double scale_;
+  double no_farther_ = std::numeric_limits<double>::infinity();  ///< than this
+  NearestElements best_;
+  std::priority_queue<Task> open_;
+};
+
+}  // namespace
+
+NearestElements nearest_elements(const BodyInFrame& first, const BodyInFrame& second) {
+  ElementSearch search(first, second);
+  search.run();
+  return search.best();
+}
+
+double half_of_distance(const BodyInFrame& first, const BodyInFrame& second) {
+  ElementSearch search(first, second);
+  search.run_half_way();
+  return search.lower_bound();
 }
 
 namespace {
@@ -147,13 +188,13 @@ bool is_inside(const BodyInFrame& solid, const Point& point) {
 }
 
 /// An element with a vertex, and the vertex as shares of its points.
-std::pair<std::uint32_t, std::vector<double>> element_with(const IndexedMesh& mesh, std::uint32_t vertex) {
+std::pair<std::uint32_t, Shares> element_with(const IndexedMesh& mesh, std::uint32_t vertex) {
   const auto& at = mesh.mesh().vertices[vertex];
   for (std::uint32_t element = 0;; ++element) {
     const auto corners = mesh.points(element);
     for (std::size_t k = 0; k < corners.size(); ++k) {
       if (corners[k] != at) continue;
-      std::vector<double> shares(corners.size());
+      Shares shares(corners.size());
       shares[k] = 1;
       return {element, shares};
     }
@@ -169,7 +210,7 @@ std::optional<PointInside> point_inside(const BodyInFrame& first, const BodyInFr
     if (solid.mesh == nullptr || !solid.mesh->is_watertight()) continue;
     if (other.mesh == nullptr) {
       if (!is_inside(solid, other.points.front())) continue;
-      std::vector<double> shares(other.points.size());
+      Shares shares(other.points.size());
       shares.front() = 1;
       return PointInside{k, std::move(shares), {}};
     }

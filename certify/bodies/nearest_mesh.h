@@ -16,15 +16,14 @@ namespace taut {
 /// A body at one pose, in one frame: points whose hull it is, or a mesh, whose point f in the file's unit is at
 /// origin + axes f.
 struct BodyInFrame {
-  std::vector<Vector3<double>> points;
+  Points points;
   const IndexedMesh* mesh = nullptr;
   Vector3<double> origin{0, 0, 0};
   Matrix3<double> axes = Matrix3<double>::Identity();  ///< a rotation times a scale
 };
 
 /// Its points, or those of an element of its mesh.
-[[nodiscard]] std::vector<Vector3<double>> points_of(const BodyInFrame& body,
-                                                     const std::optional<std::uint32_t>& element);
+[[nodiscard]] Points points_of(const BodyInFrame& body, const std::optional<std::uint32_t>& element);
 
 struct NearestElements {
   NearestPoints nearest;                                 ///< of the points of the bodies, or of their elements
@@ -33,10 +32,14 @@ struct NearestElements {
 /// @pre one of them is a mesh
 [[nodiscard]] NearestElements nearest_elements(const BodyInFrame& first, const BodyInFrame& second);
 
+/// A lower bound of the distance of their surfaces, no less than half of it: much cheaper where they are far apart.
+/// @pre one of them is a mesh
+[[nodiscard]] double half_of_distance(const BodyInFrame& first, const BodyInFrame& second);
+
 /// A point of one body that is inside of the other, a watertight mesh.
 struct PointInside {
   std::size_t solid = 0;                 ///< the mesh: 0 the first, 1 the second
-  std::vector<double> shares;            ///< of the other body's points, or of those of an element of it
+  Shares shares;                         ///< of the other body's points, or of those of an element of it
   std::optional<std::uint32_t> element;  ///< of the other body, if that is a mesh
 };
 /// Looks at one point of each part of a body that hangs together: enough where surfaces do not touch.

@@ -14,9 +14,8 @@ namespace taut {
 namespace {
 
 using Point = Vector3<double>;
-using Points = std::vector<Point>;
 
-Point weighted(const Points& points, const std::vector<double>& shares) {
+Point weighted(const Points& points, std::span<const double> shares) {
   Point result = Point::Zero();
   for (std::size_t k = 0; k < points.size(); ++k) result += shares[k] * points[k];
   return result;
@@ -61,8 +60,8 @@ std::array<BodyDistances::Placed, 2> BodyDistances::placed(const Model<double>& 
   const auto elements =
       has_mesh ? bodies_.nearest(model, pose, n).elements : std::array<std::optional<std::uint32_t>, 2>{};
   const auto points_of = [&](const ConvexBody<double>& body, std::size_t which) {
-    if (!body.mesh || !elements[which]) return body.points;
-    std::vector<Point> points;
+    if (!body.mesh || !elements[which]) return Points(body.points.begin(), body.points.end());
+    Points points;
     for (const auto& f : body.mesh->mesh->points(*elements[which])) points.push_back(body.mesh->place(f));
     return points;
   };

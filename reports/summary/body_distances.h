@@ -46,7 +46,7 @@ class BodyDistances {
   /// What bodies of the pair consist of at a pose: all within the radius of the hull of some points in W [m]. Of a mesh
   /// the element that is nearest to the other body.
   struct Placed {
-    std::vector<Vector3<double>> points;
+    Points points;
     double radius = 0;
     const HalfSpace<double>* half_space = nullptr;  ///< in place of both
   };

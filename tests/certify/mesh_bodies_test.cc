@@ -7,12 +7,14 @@
 #include <cstdio>
 #include <ctime>
 #include <functional>
+#include <random>
 #include <utility>
 
 #include "base/input_error.h"
 #include "case/case_file.h"
 #include "certificate/certificate_writer.h"
 #include "certificate/elaborate.h"
+#include "certify/bodies/nearest_mesh.h"
 #include "certify/path_proof.h"
 #include "checker/check.h"
 #include "tests/support/meshes.h"
@@ -345,6 +347,60 @@ TEST(MeshBodies, AreTouchedInOneOfTheirElements) {
   EXPECT_EQ(with(0), checker::Outcome::kRejected);  // of a leg
   EXPECT_EQ(with(36), checker::Outcome::kRejected);
   EXPECT_EQ(with(std::nullopt), checker::Outcome::kMalformed);
+}
+
+TEST(MeshBodies, AreClearOfWhatHasRoom) {
+  std::mt19937_64 random(29);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (const Problem& problem : {hall(false, true), hall(true, true)}) {
+    const PoseSampler sampler(problem);
+    const BodySampler bodies(problem);
+    BodySampler::Carried none;
+    int clear = 0, near = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+      const Waypoint here =
+          at({uniform(-6, 6), uniform(-5, 5), uniform(4, 9), uniform(-3, 3), uniform(0, 0.3), uniform(-0.5, 0.5)});
+      const RigidPose pose = sampler.rigid_pose(Segment::straight(here, here), 0);
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t n = 0; n < bodies.bodies().pairs.size(); ++n) {
+        least = std::min(least, bodies.room(sampler.model(), pose, n));
+      }
+      BodySampler::Carried carried;
+      EXPECT_EQ(bodies.is_clear(sampler.model(), pose, carried), least > 0) << trial << ": " << least;
+      ++(least > 0 ? clear : near);
+    }
+    EXPECT_GT(clear, 50);
+    EXPECT_GT(near, 50);
+  }
+}
+
+TEST(MeshBodies, AreNoNearerThanABoundOfTheirDistanceAndNoFartherThanTwice) {
+  std::mt19937_64 random(30);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const auto point = [&](double size) {
+    return Vector3<double>(size * coordinate(random), size * coordinate(random), size * coordinate(random));
+  };
+  const IndexedMesh ball(sphere_mesh(1, 3)), box(box_mesh({0.5, 1, 0.2}));
+  const auto placed = [&](const IndexedMesh& mesh) {
+    BodyInFrame body;
+    body.mesh = &mesh;
+    body.origin = point(4);
+    body.axes = Eigen::Quaterniond(coordinate(random), coordinate(random), coordinate(random), 1.5)
+                    .normalized()
+                    .toRotationMatrix();
+    return body;
+  };
+  for (int trial = 0; trial < 300; ++trial) {
+    const BodyInFrame first = placed(ball);
+    BodyInFrame second = placed(box);
+    if (trial % 3 == 0) second = {.points = {point(4), point(4)}};  // a cable
+    if (trial % 3 == 1) second = {.points = {point(4)}};
+    const double truth = nearest_elements(first, second).nearest.distance;
+    for (const double bound : {half_of_distance(first, second), half_of_distance(second, first)}) {
+      EXPECT_LE(bound, truth * (1 + 1e-12)) << trial;
+      EXPECT_GE(bound, 0.5 * truth * (1 - 1e-12)) << trial;
+    }
+  }
 }
 
 TEST(MeshBodies, HaveToBeRead) {
