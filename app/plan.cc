@@ -21,7 +21,7 @@ namespace taut {
 
 void require_plannable(const Case& the_case) {
   if (the_case.problem.query.empty()) {
-    throw FieldError("query", "", "expected the key 'query': what to plan (a case without is for taut audit)");
+    throw FieldError("query", "", "expected the key 'query': what to plan (a case without one is for taut audit)");
   }
   require_query_on_constraints(the_case.problem, the_case.units.length);
 }

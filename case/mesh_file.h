@@ -58,7 +58,7 @@ struct MeshReport {
   std::array<double, 3> lower{};  ///< bounding box, in the file's unit
   std::array<double, 3> upper{};
 
-  /// Whether the mesh has an inside: each edge has two triangles.
+  /// Whether each edge has two triangles. A mesh has an inside if, besides, each of its parts has two sides.
   [[nodiscard]] bool is_watertight() const { return edges_of_one == 0 && edges_of_many == 0; }
 };
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/format/exact.h"
+#include "checker/format/expression_parser.h"
 
 namespace taut::checker {
 namespace {
@@ -25,6 +26,14 @@ Json bodies_of(const std::string& certificate) {
 
 /// Of a decimal that the reader has accepted, in any locale.
 double rounded(const Json& text) { return parse_decimal(text.get<std::string>()).value().get_d(); }
+
+/// "20°" of a constant that the reader has accepted, rounded.
+std::string angle_text(const Json& text) {
+  const WorkingPrecision precision(64);
+  const Ball angle = parse_expression(text.get<std::string>(), {}, "").evaluate<MeanValueForm>({}).range();
+  const Ball degrees = angle * Ball(180) / Ball::pi();
+  return fmt::format("{:.6g}°", arf_get_d(arb_midref(degrees.get()), ARF_RND_NEAR));
+}
 
 std::string metres(const Json& text) { return fmt::format("{:.6g} m", rounded(text)); }
 
@@ -78,7 +87,6 @@ std::string stated_bodies(const std::string& certificate) {
   }
   std::string text = "bodies: ";
   if (!checked.empty()) text += "checked: " + checked;
-  if (!others.empty()) text += fmt::format("{}NOT CHECKED: {}", checked.empty() ? "" : "; ", others);
   text += names_text(bodies["platform"], "on the platform") + names_text(bodies["obstacles"], "obstacles");
   const Json& cables = bodies.at("cables");
   Json base = Json::array(), top = Json::array();
@@ -112,12 +120,13 @@ std::string stated_bodies(const std::string& certificate) {
   }
   if (bodies.contains("exit_cones")) {
     for (const Json& cone : bodies["exit_cones"]) {
-      text += fmt::format("; cable {} in a cone of half-angle {} rad around ({:.6g}, {:.6g}, {:.6g}) at the {}",
-                          cone.at("cable").get<int>(), cone.at("half_angle_rad").dump(-1, ' ', true),
+      text += fmt::format("; cable {} in a cone of half-angle {} around ({:.6g}, {:.6g}, {:.6g}) at the {}",
+                          cone.at("cable").get<int>(), angle_text(cone.at("half_angle_rad")),
                           rounded(cone.at("axis").at(0)), rounded(cone["axis"].at(1)), rounded(cone["axis"].at(2)),
                           cone.at("end").get<std::string>());
     }
   }
+  if (!others.empty()) text += ". NOT CHECKED: " + others;
   return text;
 }
 

@@ -77,10 +77,13 @@ Said said(const Case& the_case, const PlannedCase& planned) {
     case Verdict::kProved: {
       const checker::Theorem& theorem = checked.theorem.value();
       const bool is_spline = plan.path.interpolation == Interpolation::kCubicBSpline;
-      return {"proved",
-              fmt::format("the path is wrench-feasible and clear of singularities between all its waypoints, {} in {}.",
-                          plural(theorem.counts().segments, is_spline ? "spline segment" : "segment"),
-                          plural(theorem.counts().boxes, "box"))};
+      return {
+          "proved",
+          fmt::format(
+              "the path is wrench-feasible and clear of singularities, at its waypoints and everywhere between, {} in "
+              "{}.{}",
+              plural(theorem.counts().segments, is_spline ? "spline segment" : "segment"),
+              plural(theorem.counts().boxes, "box"), clear_bodies(the_case.problem.bodies))};
     }
     case Verdict::kRefuted: {
       const PathWitness& w = *proof.witness;

@@ -72,10 +72,11 @@ std::string step_text(const Parameter& p, double step, const DisplayUnits& units
 void print_derivatives(const Problem& problem, const Sensitivity& found, const DisplayUnits& units, std::size_t rows) {
   if (found.derivatives.empty()) return;
   const DisplayUnit& unit = units.of(is_length(found.tightest->budget.id));
-  fmt::print("What is left of that margin changes by (first derivatives, in floating point; largest first{}):\n",
-             found.derivatives.size() > rows
-                 ? fmt::format("; {} of {}, the rest with --rows or --json", rows, found.derivatives.size())
-                 : "");
+  fmt::print(
+      "What is left of the tightest margin changes by (first derivatives, in floating point; largest first{}):\n",
+      found.derivatives.size() > rows
+          ? fmt::format("; {} of {}, the rest with --rows or --json", rows, found.derivatives.size())
+          : "");
   for (std::size_t i = 0; i < std::min(rows, found.derivatives.size()); ++i) {
     const Derivative& d = found.derivatives[i];
     const double step = natural_step(problem, d.parameter);

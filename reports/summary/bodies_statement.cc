@@ -151,7 +151,7 @@ std::string body_text(const BodyText& body, bool is_obstacle) {
                         normal_text(half_space->normal));
   } else {
     const auto& mesh = std::get<MeshText>(body.shape);
-    text += fmt::format("the mesh {}, whose unit is {}{}", quoted_name(mesh.file), exact_length(mesh.unit_m),
+    text += fmt::format("the mesh {}, in units of {}{}", quoted_name(mesh.file), exact_length(mesh.unit_m),
                         placement_text(body));
   }
   if (has_no_inside(body)) text += "; it has no inside: only its surface is checked";
@@ -325,6 +325,19 @@ BodiesStatement bodies_statement(const BodiesText& bodies) {
   if (!result.contacts.empty()) result.contacts += ".";
   result.exit_cones = exit_cones_text(bodies.exit_cones);
   return result;
+}
+
+std::string clear_bodies(const std::optional<BodiesText>& bodies) {
+  if (!bodies) return "";
+  const bool are_apart = unchecked_classes(*bodies).size() < all_pair_classes().size();
+  std::string text;
+  if (are_apart) text = fmt::format("all checked bodies keep their clearances{}", but_in_contacts(*bodies));
+  if (!bodies->exit_cones.empty()) {
+    text += fmt::format("{}all cables stay in their exit cones", text.empty() ? "" : ", and ");
+  }
+  if (text.empty()) return "";
+  text[0] = 'A';
+  return fmt::format(" {}.", text);
 }
 
 const char* but_in_contacts(const BodiesText& bodies) {

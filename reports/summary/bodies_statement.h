@@ -28,6 +28,9 @@ struct BodiesStatement {
 /// @pre the bodies are valid.
 [[nodiscard]] BodiesStatement bodies_statement(const BodiesText& bodies);
 
+/// A sentence that a proved verdict adds, with a blank before it; empty where nothing of bodies is checked.
+[[nodiscard]] std::string clear_bodies(const std::optional<BodiesText>& bodies);
+
 /// The same of a case, which knows of cylinders and what is in meshes.
 [[nodiscard]] BodiesStatement bodies_statement(const CaseBodies& bodies);
 

@@ -188,9 +188,9 @@ std::string bodies_text(const CaseSummary& summary, const WaypointSummary& waypo
                     fmt::format("{:.4g}", length.approx(pair.left())),
                     pair.clearance < 0 && pair.left() > 0 ? fmt::format("may touch, {}", apart_text(pair, length))
                     : is_in                               ? fmt::format("in contact, {}", apart_text(pair, length))
-                    : pair.is_in_cone ? (pair.left() > 0 ? "inside of the cone" : "outside of the cone")
-                    : pair.left() > 0 ? ""
-                                      : "nearer than the clearance"});
+                    : pair.is_in_cone                     ? (pair.left() > 0 ? "inside the cone" : "outside the cone")
+                    : pair.left() > 0                     ? ""
+                                                          : "nearer than the clearance"});
   }
   const std::size_t others = summary.bodies->pairs() - waypoint.nearest.size();
   return columns(rows) + (others == 0 ? ""

@@ -285,11 +285,11 @@ std::string losses_text(const MarginBudget& budget, const DisplayUnit& unit) {
 std::string tightest_sentence(const Headroom& headroom, const DisplayUnits& units, bool is_proved, bool has_bodies) {
   const TightPlace& place = *headroom.tightest;
   const std::string where = place_of(headroom, place.segment, place.s);
-  const char* const begin = is_proved ? "Tightest" : "In the way";
+  const char* const begin = is_proved ? "Tightest limit of a cable" : "In the way";
   if (place.singular) return fmt::format("{}: a singular pose, or nearly so, {} (in floating point).", begin, where);
   const MarginBudget& budget = place.budget;
   if (!is_proved && has_bodies && budget.left() > 0) {
-    return "In the way: no limit of a cable, as far as samples show, but how near bodies come to each other.";
+    return "In the way: no limit of a cable, as far as samples show, but a clearance of bodies or an exit cone.";
   }
   const bool length = is_length(budget.id);
   const DisplayUnit& unit = units.of(length);

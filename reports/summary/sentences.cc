@@ -441,6 +441,8 @@ std::string contact_text(const PathWitness& witness, const BodiesText& bodies, c
   const std::string asked = clearance.sign() == 0 ? "" : fmt::format("; the clearance asked for is {}", allowed);
   const Rational apart = clearance.rational() - depth;
   if (apart <= 0) return fmt::format("{} touch{}", both, asked);
+  if (apart < Rational(1, 1000000))
+    return fmt::format("{} touch or overlap, or are at most 0.001 mm apart{}", both, asked);
   for (const int digits : {3, 4, 6, 9, 12, 15}) {
     std::string shown = rounded_to_nearest(apart.convert_to<double>(), digits);
     if (Decimal::parse(shown).rational() < apart) shown = rounded_up(above(apart), digits);

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include "tests/checker/fixtures.h"
 
@@ -58,10 +60,13 @@ TEST(TautCheck, PrintsASentence) {
 }
 
 TEST(TautCheck, ComplainsOfBadInputOnStderr) {
-  for (const std::string& arguments : {kFolder + "malformed/cut.json", kFolder + "no-such-file.json"}) {
+  const std::array<std::pair<const char*, const char*>, 2> complaints = {
+      {{"malformed/cut.json", "malformed: "}, {"no-such-file.json", "bad input: "}}};
+  for (const auto& [file, begin] : complaints) {
+    const std::string arguments = kFolder + file;
     EXPECT_EQ(run(arguments).text, "");
     const std::string complaint = run(arguments, "2>&1 >/dev/null").text;
-    EXPECT_TRUE(complaint.starts_with("malformed: ")) << complaint;
+    EXPECT_TRUE(complaint.starts_with(begin)) << complaint;
     EXPECT_EQ(std::count(complaint.begin(), complaint.end(), '\n'), 1) << complaint;
     EXPECT_EQ(nlohmann::json::parse(run("--json " + arguments).text)["outcome"], "malformed");
   }

@@ -114,7 +114,7 @@ class Signature(InFolder):
             with self.subTest(trust=name):
                 checked = self.check("--trust", self.path(name))
                 self.assertEqual(checked.returncode, 3, checked.stdout + checked.stderr)
-                self.assertTrue(checked.stderr.startswith("malformed: " + self.path(name)), checked.stderr)
+                self.assertTrue(checked.stderr.startswith("bad input: " + self.path(name)), checked.stderr)
 
 
 if __name__ == "__main__":

@@ -127,7 +127,7 @@ TEST(BodiesStatement, NotesClearancesOfPairsPrismsAndMeshes) {
   bodies.meshes = {{"tool", mesh, {}}};
   const BodiesStatement closed = bodies_statement(bodies);
   EXPECT_THAT(closed.bodies, SizeIs(5));
-  EXPECT_EQ(closed.bodies[1].second, "on the platform: the mesh 'tool.stl', whose unit is 1 mm");
+  EXPECT_EQ(closed.bodies[1].second, "on the platform: the mesh 'tool.stl', in units of 1 mm");
   EXPECT_THAT(closed.notes,
               ElementsAre("'cable 2' and 'stack': clearance 1.5 m",
                           "'post': a prism takes the place of the cylinder, and reaches up to 2.95 mm farther",

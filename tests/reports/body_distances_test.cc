@@ -187,6 +187,7 @@ TEST(ReportOfBodies, SaysHowFarAwayTheNearerPointsAreProvedToBe) {
   EXPECT_THAT(said("0.00000001"), HasSubstr("come within 29.99999 mm of each other; the clearance asked for is 30 mm"));
   EXPECT_THAT(said("0"), HasSubstr("come within 30 mm of each other, the clearance asked for"));
   EXPECT_THAT(said("0.03"), HasSubstr("touch; "));
+  EXPECT_THAT(said("0.0299999999"), HasSubstr("touch or overlap, or are at most 0.001 mm apart; the clearance"));
 }
 
 TEST(ReportOfBodies, ClaimsNothingOfAnUncheckedCertificate) {
