@@ -33,6 +33,22 @@ def stated_first(page):
     return html.unescape(re.sub(r"<[^>]*>", "", stated)).replace("\u00a0", " ")
 
 
+class Tutorial(InFolder):
+    def test_its_bodies_are_proved_clear_and_a_higher_rack_is_hit(self):
+        tutorial = text_of(os.path.join(os.path.dirname(CASES), "docs", "tutorial.md"))
+        bodies = re.search(r"```yaml\n(bodies:\n.*?)```", tutorial, re.S).group(1)
+        self.assertEqual(run(TAUT, "init", self.path("crane.yaml")).returncode, 0)
+        crane = text_of(self.path("crane.yaml"))
+        higher = bodies.replace("1800], at: [900, 900, 900]", "2500], at: [900, 900, 1250]")
+        self.assertNotEqual(higher, bodies)
+        for stated, code, expected in (
+                (bodies, 0, r"(?s)PROVED: .*keep\s+their\s+clearances\."),
+                (higher, 1, r"waypoint\s+0\s+of\s+the\s+query\s+cable\s+2\s+and\s+'rack'")):
+            said = run(TAUT, "plan", self.write("case.yaml", crane + stated), "--out", self.path("out"))
+            self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+            self.assertRegex(said.stdout, expected)
+
+
 class MeshFolder(InFolder):
     """The slit's tool in the middle of a rock, of which the nearest surface is far away."""
 
