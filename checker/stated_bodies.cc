@@ -27,12 +27,22 @@ Json bodies_of(const std::string& certificate) {
 /// Of a decimal that the reader has accepted, in any locale.
 double rounded(const Json& text) { return parse_decimal(text.get<std::string>()).value().get_d(); }
 
-/// "20°" of a constant that the reader has accepted, rounded.
+/// "20 degrees" of a constant that the reader has accepted, rounded; the expression itself if no precision here tells
+/// its first digits.
 std::string angle_text(const Json& text) {
-  const WorkingPrecision precision(64);
-  const Ball angle = parse_expression(text.get<std::string>(), {}, "").evaluate<MeanValueForm>({}).range();
-  const Ball degrees = angle * Ball(180) / Ball::pi();
-  return fmt::format("{:.6g}°", arf_get_d(arb_midref(degrees.get()), ARF_RND_NEAR));
+  constexpr int kLeastBits = 64, kMostBits = 4096;
+  constexpr int kSixDigits = 24;  // bits
+  const Expression expression = parse_expression(text.get<std::string>(), {}, "");
+  for (int bits = kLeastBits; bits <= kMostBits; bits *= 2) {
+    const WorkingPrecision precision(bits);
+    try {
+      const Ball degrees = expression.evaluate<MeanValueForm>({}).range() * Ball(180) / Ball::pi();
+      if (arb_rel_accuracy_bits(degrees.get()) < kSixDigits) continue;
+      return fmt::format("{:.6g} degrees", arf_get_d(arb_midref(degrees.get()), ARF_RND_NEAR));
+    } catch (const Undefined&) {  // with more bits it may be defined
+    }
+  }
+  return text.dump(-1, ' ', true) + " rad";
 }
 
 std::string metres(const Json& text) { return fmt::format("{:.6g} m", rounded(text)); }
@@ -85,8 +95,7 @@ std::string stated_bodies(const std::string& certificate) {
     (text.empty() ? others : checked) += (text.empty() ? others : checked).empty() ? "" : "; ";
     (text.empty() ? others : checked) += text.empty() ? name : text;
   }
-  std::string text = "bodies: ";
-  if (!checked.empty()) text += "checked: " + checked;
+  std::string text = "bodies: " + (checked.empty() ? "no class of pairs is checked" : "checked: " + checked);
   text += names_text(bodies["platform"], "on the platform") + names_text(bodies["obstacles"], "obstacles");
   const Json& cables = bodies.at("cables");
   Json base = Json::array(), top = Json::array();

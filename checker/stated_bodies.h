@@ -6,7 +6,7 @@
 
 namespace taut::checker {
 
-/// Such as: bodies: checked: platform-obstacles (2 pairs), 0.2 m; …; not checked: cables-cables. … Printable ASCII;
+/// Such as: bodies: checked: platform-obstacles (2 pairs), 0.2 m; …. NOT CHECKED: cables-cables. Printable ASCII;
 /// numbers are rounded, and names are quoted as JSON quotes them. Empty where the problem has none.
 /// @pre `certificate` is well formed: check() did not call it malformed.
 [[nodiscard]] std::string stated_bodies(const std::string& certificate);

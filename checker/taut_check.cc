@@ -116,12 +116,11 @@ MeshSupplier meshes_of(const Arguments& arguments) {
 struct CheckedFile {
   CheckResult result;
   std::string load, bodies;
-  bool is_certificate_at_fault = true;  ///< else another input is, where the outcome is kMalformed
+  bool is_bad_input = false;  ///< of kMalformed: a file could not be read, or one that is not the certificate is wrong
 };
 
 CheckedFile check_file(const Arguments& arguments) {
   CheckResult malformed;
-  bool is_read = false;  // every file but the meshes, which the certificate names
   try {
     CheckOptions options;
     options.keeps_certificate = false;
@@ -136,7 +135,6 @@ CheckedFile check_file(const Arguments& arguments) {
     }
     const std::string bytes = read_whole(arguments.certificate_path, kMaxFileSize);
     if (arguments.case_path.empty()) {
-      is_read = true;
       CheckedFile checked{check(bytes, options), "", ""};
       if (checked.result.outcome == Outcome::kAccepted) {
         checked.load = stated_load(bytes);
@@ -153,15 +151,13 @@ CheckedFile check_file(const Arguments& arguments) {
                                 arguments.interpolation);
       options.path = &*path;
     }
-    is_read = true;
     return {check(bytes, options), "", ""};
   } catch (const Malformed& error) {
     malformed.message = error.what();
-    return {malformed, "", "", is_read};
   } catch (const InputError& error) {
     malformed.message = error.what();
-    return {malformed, "", "", false};
   }
+  return {malformed, "", "", true};  // check() itself says what is wrong with a certificate
 }
 
 /// "; path file not compared; not compared: the case's query", or nothing.
@@ -263,8 +259,8 @@ int run(int argc, char** argv) {
     if (!checked.bodies.empty()) std::cout << sanitize(checked.bodies) << std::endl;
   }
   if (!arguments.quiet && is_malformed)
-    std::cerr << (checked.is_certificate_at_fault ? name(result.outcome) : "bad input") << ": "
-              << sanitize(result.message) << std::endl;
+    std::cerr << (checked.is_bad_input ? "bad input" : name(result.outcome)) << ": " << sanitize(result.message)
+              << std::endl;
   if (!std::cout) throw std::runtime_error("could not write to standard output");
   return exit_code(result.outcome);
 }

@@ -87,8 +87,8 @@ std::string sentence(const Audit& audit, const PathSource& source) {
     case Verdict::kProved:
       return fmt::format(
           "the path is wrench-feasible and clear of singularities, at its waypoints and everywhere between, {} in "
-          "{}.{}",
-          plural(audit.segments, "segment"), plural(audit.boxes, "box"), clear_bodies(source.problem().bodies));
+          "{}{}.",
+          plural(audit.segments, "segment"), plural(audit.boxes, "box"), clear_bodies(source.problem().bodies, "; "));
     case Verdict::kRefuted:
       return fmt::format("{} of the path {} proved violations{}{}", plural(audit.stretches_violated, "stretch"),
                          audit.stretches_violated == 1 ? "has" : "have",

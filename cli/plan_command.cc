@@ -81,9 +81,9 @@ Said said(const Case& the_case, const PlannedCase& planned) {
           "proved",
           fmt::format(
               "the path is wrench-feasible and clear of singularities, at its waypoints and everywhere between, {} in "
-              "{}.{}",
+              "{}{}.",
               plural(theorem.counts().segments, is_spline ? "spline segment" : "segment"),
-              plural(theorem.counts().boxes, "box"), clear_bodies(the_case.problem.bodies))};
+              plural(theorem.counts().boxes, "box"), clear_bodies(the_case.problem.bodies, "; "))};
     }
     case Verdict::kRefuted: {
       const PathWitness& w = *proof.witness;

@@ -327,17 +327,14 @@ BodiesStatement bodies_statement(const BodiesText& bodies) {
   return result;
 }
 
-std::string clear_bodies(const std::optional<BodiesText>& bodies) {
+std::string clear_bodies(const std::optional<BodiesText>& bodies, const char* before) {
   if (!bodies) return "";
-  const bool are_apart = unchecked_classes(*bodies).size() < all_pair_classes().size();
-  std::string text;
-  if (are_apart) text = fmt::format("all checked bodies keep their clearances{}", but_in_contacts(*bodies));
-  if (!bodies->exit_cones.empty()) {
-    text += fmt::format("{}all cables stay in their exit cones", text.empty() ? "" : ", and ");
+  std::vector<std::string> clauses;
+  if (unchecked_classes(*bodies).size() < all_pair_classes().size()) {
+    clauses.push_back(fmt::format("all checked bodies keep their clearances{}", but_in_contacts(*bodies)));
   }
-  if (text.empty()) return "";
-  text[0] = 'A';
-  return fmt::format(" {}.", text);
+  if (!bodies->exit_cones.empty()) clauses.emplace_back("cables that have exit cones stay in them");
+  return clauses.empty() ? "" : fmt::format("{}{}", before, fmt::join(clauses, ", and "));
 }
 
 const char* but_in_contacts(const BodiesText& bodies) {

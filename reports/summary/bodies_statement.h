@@ -28,14 +28,14 @@ struct BodiesStatement {
 /// @pre the bodies are valid.
 [[nodiscard]] BodiesStatement bodies_statement(const BodiesText& bodies);
 
-/// A sentence that a proved verdict adds, with a blank before it; empty where nothing of bodies is checked.
-[[nodiscard]] std::string clear_bodies(const std::optional<BodiesText>& bodies);
-
 /// The same of a case, which knows of cylinders and what is in meshes.
 [[nodiscard]] BodiesStatement bodies_statement(const CaseBodies& bodies);
 
 /// ", but where they may touch", or nothing where no pair may.
 [[nodiscard]] const char* but_in_contacts(const BodiesText& bodies);
+/// What a proved verdict says of bodies, after `before`: "; all checked bodies keep their clearances". Empty where
+/// nothing is checked.
+[[nodiscard]] std::string clear_bodies(const std::optional<BodiesText>& bodies, const char* before);
 
 /// "'container' and 'stack'", "cable 3 and 'stack'", "cables 2 and 5".
 [[nodiscard]] std::string pair_words(const BodiesText& bodies, const BodyPair& pair);

@@ -399,14 +399,12 @@ std::string headline(const ReportContext& scene) {
     return "Whether this certificate is right is not known, and nothing that it claims is repeated here.";
   }
   if (scene.verdict == "proved") {
+    const std::string clear = clear_bodies(certificate.problem.bodies, ", and ");
     return fmt::format(
         "Everywhere on this move, for every load in the stated set{}, no cable goes slack, none exceeds its tension or "
         "length limit, {}no singular pose is met{}.",
         certificate.problem.tolerances ? " and every machine within the stated tolerances" : "",
-        certificate.problem.bodies ? "" : "and ",
-        certificate.problem.bodies ? fmt::format(", and all checked bodies keep their clearances{}",
-                                                 but_in_contacts(*certificate.problem.bodies))
-                                   : "");
+        clear.empty() ? "and " : "", clear);
   }
   if (found_no_path(certificate)) {
     return "The planner found no path. That does not prove that there is none. Nothing is claimed.";
@@ -441,8 +439,11 @@ std::string contact_text(const PathWitness& witness, const BodiesText& bodies, c
   const std::string asked = clearance.sign() == 0 ? "" : fmt::format("; the clearance asked for is {}", allowed);
   const Rational apart = clearance.rational() - depth;
   if (apart <= 0) return fmt::format("{} touch{}", both, asked);
-  if (apart < Rational(1, 1000000))
-    return fmt::format("{} touch or overlap, or are at most 0.001 mm apart{}", both, asked);
+  const Decimal negligible = Decimal::parse("0.000001");  // m
+  if (apart < negligible.rational()) {
+    return fmt::format("{} touch or overlap, or are at most {} apart{}", both, quantity("0.000001", true, units),
+                       asked);
+  }
   for (const int digits : {3, 4, 6, 9, 12, 15}) {
     std::string shown = rounded_to_nearest(apart.convert_to<double>(), digits);
     if (Decimal::parse(shown).rational() < apart) shown = rounded_up(above(apart), digits);

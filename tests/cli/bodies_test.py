@@ -49,6 +49,21 @@ class Tutorial(InFolder):
             self.assertRegex(said.stdout, expected)
 
 
+class ExitConesAlone(InFolder):
+    def test_the_verdict_and_taut_check_say_what_is_checked(self):
+        bodies = os.path.join(CASES, "bodies")
+        case = text_of(os.path.join(bodies, "exit-cone-left.yaml"))
+        case = self.write("case.yaml", case.replace("half_angle: 20", 'half_angle: "60 + 10^17 - 10^17"'))
+        said = run(TAUT, "audit", case, os.path.join(bodies, "exit-cone-left.csv"), "--out", self.path("out"))
+        self.assertRegex(said.stdout, r"(?s)PROVED: .*;\s+cables\s+that\s+have\s+exit\s+cones\s+stay\s+in\s+them\.")
+        self.assertNotIn("checked bodies", said.stdout)
+        checked = run(CHECK, self.path("out", "certificate.json"))
+        self.assertEqual(checked.returncode, 0, checked.stdout)
+        for expected in ("bodies: no class of pairs is checked; cable 5 in a cone of half-angle 60 degrees",
+                         ". NOT CHECKED: platform-obstacles; cables-obstacles; cables-cables; cables-platform"):
+            self.assertIn(expected, checked.stdout)
+
+
 class MeshFolder(InFolder):
     """The slit's tool in the middle of a rock, of which the nearest surface is far away."""
 
