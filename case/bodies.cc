@@ -296,6 +296,7 @@ std::vector<PairClearanceText> read_pair_clearances(const Field& field, const Un
     result.push_back({{ends[0].text("the name of a body"), ends[1].text("the name of a body")},
                       read_length(map.at("clearance"), length, false)});
   }
+  if (result.empty()) field.complain("got an empty list, expected one pair or more, or no 'pair_clearances'");
   return result;
 }
 

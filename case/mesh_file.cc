@@ -102,7 +102,7 @@ bool is_number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error != std::errc::invalid_argument && end == word.data() + word.size();
+  return error != std::errc::invalid_argument && end == word.data() + word.size() && std::isfinite(value);
 }
 
 /// Three coordinates, maybe with a colour, or with a weight of 1: CGAL does not divide by it.
@@ -127,11 +127,20 @@ void require_plain_corners(const std::string& text) {
   }
 }
 
+std::string missing_corner(std::size_t line, long corner, long points) {
+  return fmt::format("in which line {} has the corner {} of {} points, expected a mesh", line, corner, points);
+}
+
 /// Refuses points and faces with words that are no numbers and no corners, behind which CGAL leaves out the rest, and
-/// surfaces of other kinds.
+/// surfaces of other kinds, and corners that no point of the file is.
 void require_plain_lines(const std::string& bytes) {
   std::istringstream lines(bytes);
   std::size_t number = 0;
+  long points = 0;
+  struct {
+    long corner = 0;
+    std::size_t line = 0;
+  } farthest;
   for (std::string line; std::getline(lines, line);) {
     ++number;
     std::istringstream words(line);
@@ -144,9 +153,20 @@ void require_plain_lines(const std::string& bytes) {
     const bool is_face = word == "f";
     std::vector<std::string> parts;
     while (words >> word && !word.starts_with('#')) parts.push_back(word);
-    if (is_face ? std::ranges::all_of(parts, is_corner) : is_point(parts)) continue;
-    fail(fmt::format("in which line {} is no {}, expected a mesh", number, is_face ? "face" : "point"));
+    if (!(is_face ? std::ranges::all_of(parts, is_corner) : is_point(parts))) {
+      fail(fmt::format("in which line {} is no {}, expected a mesh", number, is_face ? "face" : "point"));
+    }
+    if (!is_face) {
+      ++points;
+      continue;
+    }
+    for (const std::string& part : parts) {
+      const long corner = std::stol(part);  // up to the slash
+      if (corner > farthest.corner) farthest = {corner, number};
+      if (corner < -points) fail(missing_corner(number, corner, points));
+    }
   }
+  if (farthest.corner > points) fail(missing_corner(farthest.line, farthest.corner, points));
 }
 
 using CgalPoint = CGAL::Simple_cartesian<double>::Point_3;
@@ -445,6 +465,11 @@ bool is_mesh_name(const std::string& name) {
 }
 
 std::string mesh_bytes(const std::filesystem::path& path) {
+  std::error_code ignored;
+  // A pipe gives its bytes once, and they are read again to be kept beside the certificate.
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
+    fail("which is no regular file, expected one");
+  }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::string content;

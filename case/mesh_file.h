@@ -36,7 +36,8 @@ inline constexpr double kFarthestMesh = 1e9;  ///< of a coordinate, in the file'
 inline constexpr const char* kMeshNameExpected = "the name of an STL, OBJ or PLY file";
 inline constexpr const char* kMeshUnitExpected = "the unit of the mesh's coordinates, one of ";
 
-/// The file's bytes. @throws InputError that begins "which could not be read", or for more than kMostMeshBytes
+/// The file's bytes. @throws InputError that begins "which could not be read", for what is no regular file,
+/// or for more than kMostMeshBytes
 [[nodiscard]] std::string mesh_bytes(const std::filesystem::path& path);
 /// What the bytes of a file with such an extension say. @pre is_mesh_name()
 /// @throws InputError "which is no whole stl file, expected a mesh"

@@ -17,6 +17,16 @@ std::string mesh_name_beside(const std::string& file, const std::string& sha256,
   return is_taken ? sha256.substr(0, kDigits) + "-" + name : name;
 }
 
+namespace {
+
+/// Whether a name stays in the folder that it is looked for in. A certificate may come from anyone.
+bool stays_inside(const std::string& file) {
+  const std::filesystem::path path = std::filesystem::path(file).lexically_normal();
+  return path.is_relative() && !path.empty() && *path.begin() != "..";
+}
+
+}  // namespace
+
 LoadedMesh find_mesh(const std::vector<std::filesystem::path>& folders, const std::string& file,
                      const std::string& sha256) {
   const auto fail = [&](const std::string& what) {
@@ -27,7 +37,9 @@ LoadedMesh find_mesh(const std::vector<std::filesystem::path>& folders, const st
   bool has_other = false;
   for (const std::filesystem::path& folder : folders) {
     looked_at += (looked_at.empty() ? "" : ", ") + (folder.empty() ? std::string(".") : sanitize(folder.string()));
-    for (const std::string& name : {file, mesh_name_beside(file, sha256), mesh_name_beside(file, sha256, true)}) {
+    std::vector<std::string> names = {mesh_name_beside(file, sha256), mesh_name_beside(file, sha256, true)};
+    if (stays_inside(file)) names.insert(names.begin(), file);
+    for (const std::string& name : names) {
       std::error_code ignored;
       const std::filesystem::path path = folder / name;
       if (!std::filesystem::is_regular_file(path, ignored)) continue;

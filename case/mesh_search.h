@@ -14,8 +14,8 @@ namespace taut {
 /// another mesh: then the digest's beginning comes before it.
 [[nodiscard]] std::string mesh_name_beside(const std::string& file, const std::string& sha256, bool is_taken = false);
 
-/// The mesh of the file with this digest in one of some folders: under the name that the problem has for it, or under
-/// mesh_name_beside().
+/// The mesh of the file with this digest in one of some folders: under the name that the problem has for it, where
+/// that does not leave the folder, or under mesh_name_beside().
 /// @throws InputError naming file, digest and folders, and for a file that is no mesh
 [[nodiscard]] LoadedMesh find_mesh(const std::vector<std::filesystem::path>& folders, const std::string& file,
                                    const std::string& sha256);

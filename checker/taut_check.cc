@@ -97,13 +97,16 @@ struct Arguments {
   bool quiet = false;
 };
 
-/// Looks for meshes in the folder that is named, else beside the case and beside the certificate.
-MeshSupplier meshes_of(const Arguments& arguments) {
+/// Looks for meshes in the folder that is named, else in those of the case, if one is given, and beside the
+/// certificate.
+MeshSupplier meshes_of(const Arguments& arguments, const Case* the_case) {
   std::vector<std::filesystem::path> folders;
   if (!arguments.meshes.empty()) {
     folders.emplace_back(arguments.meshes);
   } else {
-    if (!arguments.case_path.empty()) folders.push_back(std::filesystem::path(arguments.case_path).parent_path());
+    if (the_case != nullptr && the_case->bodies) {
+      for (const MeshOfBody& mesh : the_case->bodies->meshes) folders.push_back(mesh.path.parent_path());
+    }
     folders.push_back(std::filesystem::path(arguments.certificate_path).parent_path());
   }
   return [folders](const std::string& file, const std::string& sha256) {
@@ -126,7 +129,6 @@ CheckedFile check_file(const Arguments& arguments) {
     options.keeps_certificate = false;
     options.threads = arguments.threads;
     options.max_seconds = arguments.max_seconds;
-    options.meshes = meshes_of(arguments);
     for (const std::string& path : arguments.key_paths) {
       options.trusted.push_back(read_public_key(read_whole(path, kMaxKeyFile), path));
     }
@@ -135,6 +137,7 @@ CheckedFile check_file(const Arguments& arguments) {
     }
     const std::string bytes = read_whole(arguments.certificate_path, kMaxFileSize);
     if (arguments.case_path.empty()) {
+      options.meshes = meshes_of(arguments, nullptr);
       CheckedFile checked{check(bytes, options), "", ""};
       if (checked.result.outcome == Outcome::kAccepted) {
         checked.load = stated_load(bytes);
@@ -142,7 +145,9 @@ CheckedFile check_file(const Arguments& arguments) {
       }
       return checked;
     }
-    const taut::Problem problem = load_case(arguments.case_path).problem;
+    const Case the_case = load_case(arguments.case_path);
+    const taut::Problem& problem = the_case.problem;
+    options.meshes = meshes_of(arguments, &the_case);
     const nlohmann::json of_case = to_json(problem);
     options.problem = &of_case;
     std::optional<ExpectedPath> path;

@@ -13,7 +13,7 @@
 #include "problem/expression.h"
 #include "problem/rational.h"
 #include "reports/summary/load_statement.h"
-#include "reports/summary/numbers.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 namespace {
@@ -56,12 +56,12 @@ std::string exact_sides(const ExactPoint& sides) {
   return fmt::format("{} × {} × {} {}", unit.text(sides[0]), unit.text(sides[1]), unit.text(sides[2]), unit.name);
 }
 
-bool is_turned(const BodyText& body) {
-  return std::ranges::any_of(body.rotation_rad,
-                             [](const ExpressionText& angle) { return evaluate_constant<double>(angle) != 0; });
-}
+/// Whether the angle is 0, to be seen from how it was typed.
+bool is_zero(const ExpressionText& radians) { return angle_text(radians) == "0°"; }
 
-/// " at (0, 1, 1.3) m, turned by yaw 10°"; empty where the body is not moved. Angles are rounded.
+bool is_turned(const BodyText& body) { return !std::ranges::all_of(body.rotation_rad, is_zero); }
+
+/// " at (0, 1, 1.3) m, turned by yaw 10°"; empty where the body is not moved.
 std::string placement_text(const BodyText& body) {
   std::string text;
   const ExactPoint at = exact_point(body.at_m);
@@ -69,8 +69,8 @@ std::string placement_text(const BodyText& body) {
   constexpr std::array<const char*, 3> kAngles = {"roll", "pitch", "yaw"};
   std::vector<std::string> turns;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double angle = evaluate_constant<double>(body.rotation_rad[k]);
-    if (angle != 0) turns.push_back(fmt::format("{} {:.6g}°", kAngles[k], degrees(angle)));
+    const ExpressionText& angle = body.rotation_rad[k];
+    if (!is_zero(angle)) turns.push_back(fmt::format("{} {}", kAngles[k], angle_text(angle)));
   }
   return turns.empty() ? text : fmt::format("{}, turned by {}", text, fmt::join(turns, ", "));
 }
@@ -208,13 +208,13 @@ std::string cables_text(const BodiesText& bodies) {
   return fmt::format("Cables: {}.", fmt::join(each, "; "));
 }
 
-/// "Exit cones: cable 1 at the base, 60° around (0, 0, -1); …." Angles are rounded.
+/// "Exit cones: cable 1 at the base, 60° around (0, 0, -1); …."
 std::string exit_cones_text(const std::vector<ExitConeText>& cones) {
   std::string text;
   for (const ExitConeText& cone : cones) {
-    text += fmt::format("{}{} at the {}, {:.6g}° around {}", text.empty() ? "Exit cones, in half-angles: " : "; ",
-                        cable_name(cone.cable), name(cone.end), degrees(evaluate_constant<double>(cone.half_angle_rad)),
-                        normal_text(cone.axis));
+    text +=
+        fmt::format("{}{} at the {}, {} around {}", text.empty() ? "Exit cones, in half-angles: " : "; ",
+                    cable_name(cone.cable), name(cone.end), angle_text(cone.half_angle_rad), normal_text(cone.axis));
   }
   return text.empty() ? text : text + ".";
 }

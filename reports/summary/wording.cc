@@ -9,7 +9,9 @@
 #include <limits>
 
 #include "certify/arithmetic/big_float.h"
+#include "certify/arithmetic/mp_interval.h"
 #include "problem/decimal.h"
+#include "problem/expression.h"
 #include "reports/summary/angles.h"
 #include "reports/summary/numbers.h"
 
@@ -22,6 +24,23 @@ std::string rounded(double x, int digits, mpfr_rnd_t direction) {
   if (is_absurd(x)) return fmt::format("{:.{}g}", x, digits);
   const PrecisionScope precision(64);
   return plain(BigFloat(x).to_decimal(digits, direction));
+}
+
+bool is_number(std::string_view text) { return text.find_first_not_of("+-.0123456789eE") == std::string_view::npos; }
+
+/// " (25.7143°)", or nothing.
+std::string in_degrees(const ExpressionText& radians) {
+  constexpr int kDigits = 6;
+  constexpr mpfr_prec_t kMostBits = 4096;
+  for (mpfr_prec_t bits = 64; bits <= kMostBits; bits *= 2) {
+    const PrecisionScope precision(bits);
+    Faults<MpInterval>::clear();
+    const auto value = evaluate_constant<MpInterval>("(" + radians + ")*180/pi");
+    if (Faults<MpInterval>::raised()) continue;  // with more bits it may be defined
+    const auto text = [](const BigFloat& x) { return plain(x.to_decimal(kDigits, MPFR_RNDN)); };
+    if (text(value.lower()) == text(value.upper())) return fmt::format(" ({}°)", text(value.lower()));
+  }
+  return "";
 }
 
 }  // namespace
@@ -120,9 +139,10 @@ std::string angle_text(const ExpressionText& radians) {
   constexpr std::string_view kDegrees = ")*pi/180";  // as decimal_to_si() writes them
   if (radians.starts_with(kOpen) && radians.ends_with(kDegrees)) {
     const std::string inner = radians.substr(kOpen.size(), radians.size() - kOpen.size() - kDegrees.size());
-    if (inner.find_first_not_of("+-.0123456789eE") == std::string::npos) return plain(inner) + "°";
+    if (is_number(inner)) return plain(inner) + "°";
   }
-  return radians + " rad";
+  if (is_number(radians) && plain(radians) == "0") return "0°";
+  return radians + " rad" + in_degrees(radians);
 }
 
 std::string coordinate_text(double x, int half_turns) {

@@ -41,7 +41,8 @@ namespace taut {
 [[nodiscard]] std::string growth_text(const DecimalText& factor);
 /// "(-190.5256, -110, 0)": exactly.
 [[nodiscard]] std::string triple(const std::array<DecimalText, 3>& metres, const DisplayUnit& unit);
-/// "0.2°" if the angle was typed in degrees, else "0.0035 rad"; exactly the same angle.
+/// "0.2°" if the angle was typed in degrees, else "0.0035 rad (0.200535°)"; exactly the same angle, but in the
+/// brackets, which are left out where no precision here tells six digits.
 [[nodiscard]] std::string angle_text(const ExpressionText& radians);
 
 /// The names of a waypoint's numbers, and their units.

@@ -115,6 +115,23 @@ class Meshes(MeshFolder):
             file.write(stl(box((9, 9, 8), (0, 0, 40))))
         self.assertNotEqual(run(CHECK, certificate).returncode, 0)
 
+    def test_a_certificate_leads_to_no_mesh_outside_of_the_folders(self):
+        self.audit(stl(box((9, 9, 9), (0, 0, 40))), code=0)
+        with open(self.path("out", "certificate.json"), encoding="utf-8") as file:
+            certificate = json.load(file)
+        os.mkdir(self.path("other"))
+        elsewhere = self.path("rock.stl")
+        self.assertTrue(os.path.exists(elsewhere))
+        os.remove(self.path("out", "rock.stl"))
+        for name in ("../rock.stl", elsewhere, "../out/../rock.stl"):
+            certificate["problem"]["bodies"]["obstacles"][0]["mesh"]["file"] = name
+            certificate["problem_sha256"] = digest(certificate["problem"])
+            with open(self.path("out", "certificate.json"), "w", encoding="utf-8") as file:
+                file.write(sealed(certificate))
+            checked = run(CHECK, self.path("out", "certificate.json"), "--meshes", self.path("other"))
+            self.assertEqual(checked.returncode, 3, checked.stdout + checked.stderr)
+            self.assertIn("there is no file of this name", checked.stderr)
+
     def test_a_file_that_holds_more_than_it_says_is_refused(self):
         rock = box((9, 9, 9), (0, 0, 40))
         for file in (stl(rock)[:-1], stl(rock, b"\0"), stl(rock, stl(rock)[84:134])):
@@ -124,12 +141,17 @@ class Meshes(MeshFolder):
             self.assertFalse(os.path.exists(self.path("out")))
 
 
+def digest(value):
+    """Of its canonical JSON."""
+    text = json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
 def sealed(certificate):
     """With the digest of what it says."""
     certificate = copy.deepcopy(certificate)
     footer = certificate.pop("footer")
-    body = json.dumps(certificate, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
-    footer["sha256"] = hashlib.sha256(body.encode()).hexdigest()
+    footer["sha256"] = digest(certificate)
     return json.dumps({**certificate, "footer": footer}, sort_keys=True)
 
 

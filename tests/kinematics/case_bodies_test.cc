@@ -233,6 +233,7 @@ TEST(CasePairs, MayHaveAClearanceOfTheirOwn) {
   expect_rejected(
       bodies + "pair_clearances: [{pair: [post, deck], clearance: 1}, {pair: [deck, post], clearance: 2}]\n",
       "expected one clearance for each pair");
+  expect_rejected(bodies + "pair_clearances: []\n", "got an empty list, expected one pair or more");
   expect_rejected(bodies + "pair_clearances: [{pair: [post], clearance: 1}]\n", "expected the names of two bodies");
 }
 

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <filesystem>
@@ -215,10 +216,15 @@ TEST_F(MeshFiles, ThatAreNoMeshesAreRejected) {
   expect_rejected("lie.stl", testing::binary_stl(4'000'000'000U, std::vector<float>(9, 1.0F)),
                   "which is no whole stl file");
   expect_rejected("nan.stl", testing::binary_stl(1, std::vector<float>(9, kNan)), "is no number");
-  expect_rejected("negative.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n", "expected a mesh");
+  expect_rejected("negative.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n",
+                  "in which line 4 has the corner -9 of 3 points");
   expect_rejected("inf.stl", testing::binary_stl(1, std::vector<float>(9, 1 / 0.0F)), "is no number");
-  expect_rejected("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "expected a mesh");
-  expect_rejected("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "expected a mesh");
+  expect_rejected("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "in which line 2 is no point");
+  expect_rejected("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "in which line 4 has the corner 4 of 3 points");
+  expect_rejected("later.obj", "f 1 2 4\nv 0 0 0\nv inf 0 0\nv 0 1 0\n", "in which line 3 is no point");
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.stl").c_str(), 0600), 0);  // NOLINT: read and write by its owner
+  EXPECT_THAT([&] { (void)load_mesh(folder_ / "pipe.stl"); }, ThrowsMessage<InputError>(HasSubstr("no regular file")));
+  EXPECT_THAT([&] { (void)load_mesh(folder_); }, ThrowsMessage<InputError>(HasSubstr("no regular file")));
   expect_rejected("far.obj", "v 0 0 0\nv 2e9 0 0\nv 0 1 0\nf 1 2 3\n", "point 2 is farther away than 1e+09");
   expect_rejected("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "no triangle has three different corners");
   expect_rejected("huge.stl", std::string(kMostMeshBytes + 1, 'x'), "expected a mesh of at most 64 MB");

@@ -12,6 +12,7 @@ namespace taut {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -67,6 +68,17 @@ TEST(BodiesStatement, SaysTheExampleCranesBodiesInPeoplesUnits) {
           "'post', obstacle: all within 150 mm of the segment from (7, 5, 0) m to (7, 5, 6) m."));
 }
 
+TEST(BodiesStatement, SaysAnglesAsTheyAreAlsoWhereTheirSumsCancel) {
+  BodiesText bodies = crane_scene();
+  bodies.obstacles[1].rotation_rad = {"(0.0)*pi/180", "1 + 10^60 - 10^60", "(10 + 10^17 - 10^17)*pi/180"};
+  EXPECT_THAT(lines(bodies_statement(bodies)),
+              Contains(HasSubstr("at (0, 1, 1.3) m, turned by pitch 1 + 10^60 - 10^60 rad (57.2958°), "
+                                 "yaw (10 + 10^17 - 10^17)*pi/180 rad (10°); clearance")));
+  bodies.exit_cones = {{0, CableEnd::kBase, {"0", "0", "-1"}, "pi/7"}};
+  EXPECT_THAT(lines(bodies_statement(bodies)),
+              Contains("Exit cones, in half-angles: cable 1 at the base, pi/7 rad (25.7143°) around (0, 0, -1)."));
+}
+
 TEST(BodiesStatement, SaysWhatIsNotChecked) {
   BodiesText bodies = crane_scene();
   bodies.clearance_m = {"0.2", std::nullopt, std::nullopt, std::nullopt};
@@ -97,7 +109,7 @@ TEST(BodiesStatement, SaysEachShapeAndPlace) {
   for (const auto& [name, text] : bodies_statement(bodies).bodies) words.push_back(text);
   EXPECT_THAT(words, ElementsAre("on the platform: a ball of radius 500 mm around (1, 0, 1) m",
                                  "on the platform: a ball of radius 2 m around (0, 0, 1) m at (1, 0, 0) m, turned by "
-                                 "roll 90°, yaw 28.6479°",
+                                 "roll 90°, yaw 0.5 rad (28.6479°)",
                                  "on the platform: the point (10, 0, 0) mm",
                                  "on the platform: the segment from (0, 0, 0) m to (1, 0, 0) m",
                                  "on the platform: the convex hull of 4 points from (0, 0, 0) m to (3, 3, 2) m",
