@@ -38,7 +38,8 @@ ProofModel<MpInterval> make_mp_proof_model(const Problem& problem) {
           make_tolerance_model<MpInterval>(problem),
           {},
           {},
-          problem.bodies ? std::optional(make_body_model<MpInterval>(problem)) : std::nullopt};
+          problem.bodies ? std::optional(make_body_model<MpInterval>(problem)) : std::nullopt,
+          problem.time ? std::optional<MovingModel<MpInterval>>(problem) : std::nullopt};
 }
 
 ProofModel<Interval> make_proof_model(const Problem& problem) {
@@ -51,6 +52,7 @@ ProofModel<Interval> make_proof_model(const Problem& problem) {
     if (is_diagonal) set_ellipsoid(problem.load, model);
     result.tolerance = make_tolerance_model<Interval>(problem);
     if (problem.bodies) result.bodies = make_body_model<Interval>(problem);
+    if (problem.time) result.moving.emplace(problem);
   });
   if (!is_bounded) throw InputError("robot, load: got a number beyond the range of binary64");
   if (is_diagonal) {
@@ -256,13 +258,13 @@ struct ItemsOverBox<Interval> {
   NominalForm remaining;
 };
 
+/// @param w  the wrench beside the items and the ellipsoid's spread
 template <class I>
 Densities<I> enclose_densities(const ProofModel<I>& problem, const Matrix3<SlopeForm<I>>& r_WP,
-                               const InverseBound<I>& inverse, double radius, const I& offset) {
+                               const InverseBound<I>& inverse, double radius, const I& offset, Vector6<I> w) {
   const Model<I>& model = problem.model;
   Densities<I> result;
   std::optional<ItemsOverBox<I>> items;
-  Vector6<I> w = model.wrench;
   if (!model.loads.empty()) items.emplace(problem, r_WP, w);
   if (model.has_ellipsoid) {
     const Forms<I, 7> forms = inverse.times(loaded_columns(model, inverse, w));
@@ -279,6 +281,37 @@ Densities<I> enclose_densities(const ProofModel<I>& problem, const Matrix3<Slope
   result.are_enclosed = true;
   return result;
 }
+
+/// Of a move in time: what inertia asks of the cables at the midpoint, and over all of a box.
+template <class I>
+struct Inertia {
+  Inertia(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s)
+      : at_mid(problem.moving->over(problem.model, segment, s.mid)),
+        over(problem.moving->over(problem.model, segment, s.range)) {}
+
+  /// w0 − w_in.
+  [[nodiscard]] static Vector6<I> rest(const Vector6<I>& w0, const Moving<I>& moving) {
+    Vector6<I> w;
+    for (int k = 0; k < 6; ++k) w(k) = w0(k) - moving.wrench(k);
+    return w;
+  }
+
+  /// Adds to ranges what w_in is elsewhere than at the midpoint. Slopes remain those of the wrench there.
+  void spread(const InverseBound<I>& inverse, BoxEnclosure<I>& box) const {
+    Vector6<I> elsewhere;
+    for (int k = 0; k < 6; ++k) elsewhere(k) = at_mid.wrench(k) - over.wrench(k);
+    const Forms<I, 1> densities = inverse.times(loaded_column(inverse, elsewhere));
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const I& density = densities[i][0].range;
+      const I tension = box.length[i].range * density;
+      box.density[i].range = box.density[i].range + density;
+      box.low[i].range = box.low[i].range + tension;
+      box.high[i].range = box.high[i].range + tension;
+    }
+  }
+
+  Moving<I> at_mid, over;
+};
 
 /// How far a deviation may change a margin.
 template <class I>
@@ -393,8 +426,10 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   result.motion = motion.status;
   if (!motion.is_enclosed()) return result;
   if (problem.bodies) result.pose = motion;
+  const bool is_moving = segment.timing != nullptr;
+  if (is_moving && !problem.moving) throw std::logic_error("a move of a problem without limits in time");
   if constexpr (std::is_same_v<I, Interval>) {
-    if (problem.lanes && model.loads.empty() && !problem.tolerance) {
+    if (problem.lanes && model.loads.empty() && !problem.tolerance && !is_moving) {
       enclose_in_lanes(problem, motion, radius, result);
       return result;
     }
@@ -408,7 +443,14 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
 
   InverseBound<I> inverse;
   if (!inverse.set(geometry.force_density, radius)) return result;
-  const Densities<I> densities = enclose_densities(problem, motion.r_WP, inverse, radius, offset);
+  std::optional<Inertia<I>> inertia;
+  if (is_moving) {
+    inertia.emplace(problem, segment, s);
+    result.rates = {inertia->at_mid.margins, inertia->over.margins};
+  }
+  const Densities<I> densities =
+      enclose_densities(problem, motion.r_WP, inverse, radius, offset,
+                        inertia ? Inertia<I>::rest(model.wrench, inertia->at_mid) : model.wrench);
   if (!densities.are_enclosed) return result;
   for (std::size_t i = 0; i < kCables; ++i) {
     result.density[i] = densities.nominal[i];
@@ -417,12 +459,34 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   }
   result.regular = true;
   set_tensions(result);
+  if (inertia) inertia->spread(inverse, result);
   add_tension_margins(model, result);
   if (!problem.tolerance || !result.margins.are_positive()) return result;
-  add_disturbance(problem,
-                  {model, problem.item_rows, motion, geometry, result.length, result.density, densities.radius,
-                   densities.root, inverse.c(), inverse.q(), is_length_controlled(problem, segment)},
-                  continuation_steps, result);
+  Vector6<I> wrench = inertia ? Inertia<I>::rest(model.wrench, inertia->over) : model.wrench;
+  Vector6<I> change;
+  for (int k = 0; k < 6; ++k) change(k) = I(0.0);
+  const UndisturbedBox<I> undisturbed{model,
+                                      problem.item_rows,
+                                      motion,
+                                      geometry,
+                                      result.length,
+                                      result.density,
+                                      densities.radius,
+                                      densities.root,
+                                      inverse.c(),
+                                      inverse.q(),
+                                      is_length_controlled(problem, segment),
+                                      wrench,
+                                      change};
+  add_disturbance(problem, undisturbed, continuation_steps, result);
+  if (!inertia || !result.disturbance) return result;
+  // How far the platform turns does not depend on the load. Once it is known, so is what that changes of the inertia.
+  change = problem.moving->change(inertia->over, I(ProofScalarTraits<I>::symmetric(result.disturbance->turn)));
+  wrench -= change;
+  change = -change;
+  result.disturbance.reset();
+  for (auto& margin : result.margins) margin.disturbed = margin.value.range;
+  add_disturbance(problem, undisturbed, continuation_steps, result);
   return result;
 }
 
@@ -559,6 +623,23 @@ void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure
   }
 }
 
+/// Of a box on which all tensions and lengths are proved.
+template <class I>
+void judge_rates(const typename BoxEnclosure<I>::RateMargins& rates, BoxVerdict& verdict) {
+  using Kind = BoxVerdict::Kind;
+  for (std::size_t n = 0; n < rates.over.size(); ++n) {
+    const I& at_mid = rates.at_mid[n].value;
+    if (certainly_nonpositive(at_mid)) {
+      verdict.kind = Kind::kTooFast;
+      verdict.rate = rates.over[n].id;
+      return;
+    }
+    if (verdict.kind == Kind::kPrecision || certainly_positive(rates.over[n].value)) continue;
+    verdict.kind = certainly_positive(at_mid) ? Kind::kSplit : Kind::kPrecision;
+    verdict.rate = rates.over[n].id;
+  }
+}
+
 /// BoxVerdict::strain.
 template <class I>
 double strain(const MarginList<I>& margins) {
@@ -666,6 +747,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
     verdict.kind = within_tolerance || !all_positive_undisturbed ? Kind::kSplit : Kind::kTolerance;
   }
   if (verdict.kind != Kind::kRefuted && verdict.kind != Kind::kProved) verdict.worst = weakest(problem, enclosure);
+  if (verdict.kind == Kind::kProved && enclosure.rates) judge_rates<I>(*enclosure.rates, verdict);
   verdict.clearance_m = std::numeric_limits<double>::infinity();
   if (verdict.kind == Kind::kProved && directions != nullptr && problem.bodies) {
     judge_bodies(problem, enclosure, *directions, verdict);

@@ -24,6 +24,7 @@
 #include "certify/loads/item_rows.h"
 #include "certify/motion/length_controlled_motion.h"
 #include "certify/motion/motion.h"
+#include "certify/motion/moving.h"
 #include "certify/tolerance/tolerance.h"
 #include "kinematics/geometry.h"
 #include "kinematics/margin.h"
@@ -44,6 +45,7 @@ struct ProofModel {
   ItemRows item_rows;                           ///< of model.loads; only for Interval
   std::shared_ptr<const lanes::Machine> lanes;  ///< the machine for forms_in_lanes.h; only for Interval, else null
   std::optional<BodyModel<I>> bodies;           ///< where the problem has any
+  std::optional<MovingModel<I>> moving = {};    ///< where it has limits in time
 };
 
 /// At working_precision(). @throws InputError where E can't be proved positive definite.
@@ -92,6 +94,12 @@ struct BoxEnclosure {
   I offset;                                        ///< contains t − m for all t in T
   MarginList<I> margins;                           ///< those of lengths, and where regular those of tensions
   std::optional<MotionEnclosure<I>> pose;          ///< only where the problem has bodies
+  /// Of a move in time: limits less rates, at the midpoint and on all of T. Tensions are those with inertia then, of
+  /// every time at which the move is there; their slopes are those with the inertia of the midpoint.
+  struct RateMargins {
+    std::vector<RateMargin<I>> at_mid, over;
+  };
+  std::optional<RateMargins> rates;
   /// What deviations may change: only where the problem has tolerances, the undisturbed margins are positive on all of
   /// T, and for every deviation the commanded pose is proved to exist, and J to be non-singular.
   std::optional<DeviationBounds<I>> disturbance;
@@ -117,11 +125,14 @@ struct BoxVerdict {
     kSpansKnot,     ///< T reaches across an inner pose of the reference, and nothing was tried
     kOutOfRange,    ///< at the midpoint a parameter may be outside of its range (only where the motion is implied)
     kNear,          ///< as kProved, but some pairs of bodies are not shown to be apart along the given directions
-    kInside,  ///< as kProved, but of one pair a part of a body is inside of the other, a closed mesh, at the midpoint
-    kFault,   ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
+    kInside,   ///< as kProved, but of one pair a part of a body is inside of the other, a closed mesh, at the midpoint
+    kTooFast,  ///< as kProved, but at the midpoint `rate` is proved to be at its limit or beyond it
+    kFault,    ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
   };
   Kind kind = Kind::kFault;
   MarginId worst;  ///< the margin that decided, or stood in the way
+  /// If kTooFast. If kSplit or kPrecision: where all margins are positive, and this rate stands in the way.
+  std::optional<RateId> rate;
   /// Only if kRefuted: `worst` is proved not positive on all of T.
   bool throughout = false;
   double tension_N = 0;  ///< proved lower bounds over the box; only if kProved

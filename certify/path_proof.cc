@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "base/input_error.h"
 #include "certify/gravest.h"
@@ -128,6 +129,8 @@ Margins margins_below(double tension_N, double length_m, double wrench_scale, st
 
 PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known, const std::stop_token& stop,
                      ProofAim aim) {
+  // What a law has to be (complaint(path)) and what refutes it are not asked for yet.
+  if (path.timing) throw std::logic_error("a move in time, of which only segments are proved");
   PathProof result;
   if (path.segments() == 0) {
     if (path.waypoints.size() == 1) result.witness = refute_pose(prover, path.segment(0), 0, result.reason, stop);

@@ -11,6 +11,7 @@
 #include "certify/tolerance/deviation.h"
 #include "certify/undecided.h"
 #include "kinematics/margin.h"
+#include "kinematics/time_limits.h"
 
 namespace taut {
 
@@ -30,6 +31,7 @@ struct SegmentWitness {
   DyadicBox box;
   std::shared_ptr<const Deviation> deviation = nullptr;  ///< of the machine whose margin it is; null: undisturbed
   std::optional<PairContact> contact = {};
+  std::optional<RateId> rate = {};  ///< that is at its limit, or beyond it, at the midpoint of `box`
 };
 
 struct SegmentProof {

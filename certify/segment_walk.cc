@@ -207,6 +207,7 @@ bool SegmentWalk::prove_in_strides() {
 std::optional<SegmentWitness> SegmentWalk::refute_elsewhere() {
   // A witness behind an inner pose is about the path only if what leads there is proved.
   if (last_verdict_.kind != BoxVerdict::Kind::kTolerance || !segment_.inner_poses.empty()) return std::nullopt;
+  if (segment_.timing != nullptr) return std::nullopt;
   return deviations_.refute(deviations_.weakest_box(last_verdict_.worst), last_verdict_.worst);
 }
 
@@ -235,6 +236,8 @@ SegmentWalk::Step SegmentWalk::examine(const Task& task) {
     }
     case Kind::kProved: return {Step::Kind::kProved, verdict};
     case Kind::kRefuted: return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, task.box}};
+    case Kind::kTooFast:
+      return {Step::Kind::kRefuted, verdict, SegmentWitness{false, {}, task.box, nullptr, {}, *verdict.rate}};
     case Kind::kTooClose: return {Step::Kind::kGiveUp, verdict, {}, Undecided::kClearance};
     case Kind::kOutOfRange: return {Step::Kind::kGiveUp, verdict, {}, Undecided::kParameterRange};
     case Kind::kSplit:
@@ -251,7 +254,12 @@ SegmentWalk::Step SegmentWalk::examine(const Task& task) {
 SegmentWalk::Step SegmentWalk::examine_split(const Task& task, const BoxVerdict& verdict) {
   const bool is_imprecise = verdict.kind == BoxVerdict::Kind::kPrecision;
   if (!is_imprecise && task.box.depth < ladder_.deepest(task.rung)) return {Step::Kind::kSplit, verdict};
+  if (may_climb(task) && verdict.rate) return {Step::Kind::kClimb, verdict};
   if (may_climb(task)) return locate_minimum(task, verdict.worst);
+  if (verdict.rate) {
+    const Undecided reason = is_imprecise ? Undecided::kPrecision : Undecided::kDepth;
+    return {Step::Kind::kGiveUp, verdict, {}, {reason, " a limit of speeds or accelerations"}};
+  }
   return {Step::Kind::kGiveUp,
           verdict,
           {},
@@ -267,7 +275,8 @@ SegmentWalk::Step SegmentWalk::examine_deviations(const Task& task, const BoxVer
     return steps_are_few && !is_proved_inside(task) ? refine : Step{Step::Kind::kSplit, verdict};
   }
   const Step give_up{Step::Kind::kGiveUp, verdict, {}, at(Undecided::kTolerances, verdict.worst)};
-  if (aim_ == ProofAim::kProve) return steps_are_few ? refine : give_up;
+  // The search for deviations that refute knows no inertia.
+  if (aim_ == ProofAim::kProve || segment_.timing != nullptr) return steps_are_few ? refine : give_up;
   // Once a deviation refutes the segment, only its last box is searched again: a survey states the first and the last
   // violation of a stretch, and each search is costly.
   if (deviation_refutes_ && task.box.upper() != Dyadic{1, 0}) return give_up;

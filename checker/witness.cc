@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/witness.h"
 
+#include <stdexcept>
+
 namespace taut::checker {
 namespace {
 
@@ -26,6 +28,7 @@ Ball determinant_at(const Machine& machine, const Problem& problem, const Path& 
 }
 
 Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
+  if (path.timing) throw std::logic_error("a witness of a move, whose inertia is not known here");
   const Geometry stated =
       commanded_geometry(machine, problem, path, witness.at.segment, at_place(witness.at, witness.at_box));
   if (!witness.loads && !witness.deviation) return quantity(machine, stated, witness);

@@ -31,6 +31,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -77,13 +78,25 @@ struct InnerPose {
   bool operator==(const InnerPose&) const = default;
 };
 
-/// One segment of a path; refers to waypoints that outlive it.
+/// When a move is where on a path (time_law.h): a uniform cubic B-spline s = σ(t) of time.
+struct TimeLaw {
+  double step_s = 0;             ///< h [s], above 0
+  std::vector<double> controls;  ///< c
+
+  [[nodiscard]] std::size_t pieces() const { return controls.size() < 4 ? 0 : controls.size() - 3; }
+  [[nodiscard]] double duration_s() const { return step_s * static_cast<double>(pieces()); }  ///< T, rounded
+  bool operator==(const TimeLaw&) const = default;
+};
+
+/// One segment of a path; refers to waypoints and a time law that outlive it.
 struct Segment {
   Interpolation law = Interpolation::kStraight;
   std::array<const Waypoint*, 4> control{};
   double tube = 0;                          ///< bound of |y_i|; only in a space with constraints
   PoseTube pose_tube = {};                  ///< of the first piece; only under the law of cable lengths
   std::vector<InnerPose> inner_poses = {};  ///< by rising s; likewise
+  const TimeLaw* timing = nullptr;          ///< of the path; null: only where the path leads is asked for
+  std::size_t index = 0;                    ///< the segment's in the path
 
   [[nodiscard]] static Segment straight(const Waypoint& a, const Waypoint& b, double tube = 0) {
     return {Interpolation::kStraight, {&a, &b}, tube};
@@ -103,6 +116,7 @@ struct Path {
       {};  ///< decimals, one a waypoint [s]; empty where the path has none. No part of any claim
   std::vector<PoseTube> pose_tubes = {};                 ///< one a segment, under the law of cable lengths; else empty
   std::vector<std::vector<InnerPose>> inner_poses = {};  ///< likewise
+  std::optional<TimeLaw> timing = {};                    ///< of a move
 
   [[nodiscard]] std::size_t segments() const {
     const std::size_t controls = control_points(interpolation);
@@ -113,6 +127,8 @@ struct Path {
     Segment segment{interpolation, {}, k < tubes.size() ? tubes[k] : 0};
     if (k < pose_tubes.size()) segment.pose_tube = pose_tubes[k];
     if (k < inner_poses.size()) segment.inner_poses = inner_poses[k];
+    if (timing) segment.timing = &*timing;
+    segment.index = k;
     if (segments() == 0) {
       if (!has_poses(interpolation)) segment.law = Interpolation::kStraight;
       segment.control[0] = segment.control[1] = &waypoints.front();

@@ -58,7 +58,7 @@ Decimal::Decimal(cpp_int mantissa, int exponent) : mantissa_(std::move(mantissa)
   if (size > kMaxDigits) fail(digits, fmt::format("at most {} significant digits", kMaxDigits));
   if (size + exponent_ > kMaxMagnitude || size + exponent_ <= -kMaxMagnitude) {
     fail(fmt::format("{}e{}", digits, exponent_),
-         fmt::format("zero, or a magnitude of at least 1e-{0} and below 1e{0}", kMaxMagnitude));
+         fmt::format("zero or a magnitude of at least 1e-{0} and below 1e{0}", kMaxMagnitude));
   }
 }
 
@@ -80,7 +80,7 @@ Decimal Decimal::parse(std::string_view text) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
     constexpr int kMaxExponent = kMaxDigits + kMaxMagnitude;  // 1000 digits may stand before or after the point
     if (error != std::errc() || exponent > kMaxExponent) {
-      fail(text, fmt::format("zero, or a magnitude of at least 1e-{0} and below 1e{0}", kMaxMagnitude));
+      fail(text, fmt::format("zero or a magnitude of at least 1e-{0} and below 1e{0}", kMaxMagnitude));
     }
     if (negative_exponent) exponent = -exponent;
   }

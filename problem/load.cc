@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 
 #include "base/input_error.h"
 #include "problem/decimal.h"
@@ -111,6 +112,7 @@ json item_to_json(const LoadItem& item) {
   json result = {{"name", item.name}};
   std::visit(
       Overloaded{[&](const Weight& w) {
+                   if (w.inertia_box) throw std::logic_error("an inertia, which no certificate states");
                    result["weight"] = {{"mass_kg", json::array({w.mass_lower, w.mass_upper})},
                                        {"at_m", w.at},
                                        {"at_tolerance_m", w.at_tolerance}};

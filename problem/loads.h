@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -48,6 +49,9 @@ struct Weight {
   RationalText mass_upper;
   RationalVector at;
   RationalText at_tolerance;
+  /// The sides of a box, along the axes of P, that the mass fills evenly around its centre of gravity [m]; else it is a
+  /// point. Only of moves in time. No case and no certificate states it yet.
+  std::optional<RationalVector> inertia_box = std::nullopt;
   bool operator==(const Weight&) const = default;
 };
 struct Force {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <tuple>
 
 #include "base/input_error.h"
@@ -494,6 +495,7 @@ SpaceText coordinate_space(const AnglesText& angles) {
 }
 
 json to_json(const Problem& problem) {
+  if (problem.time) throw std::logic_error("limits in time, which no certificate states");
   json parameters = json::array();
   for (const Parameter& parameter : problem.space.parameters) parameters.push_back(parameter_to_json(parameter));
   json pose = json::object();

@@ -19,6 +19,7 @@
 #include "problem/bodies.h"
 #include "problem/loads.h"
 #include "problem/text.h"
+#include "problem/time.h"
 
 namespace taut {
 
@@ -124,6 +125,8 @@ struct Problem {
   std::vector<std::vector<ExpressionText>> query;
   /// What may not touch, if anything is said of that.
   std::optional<BodiesText> bodies;
+  /// What a move along a path may do in time. No case and no certificate states it yet.
+  std::optional<TimeText> time = {};
 };
 
 /// What a message may add where `word` is a coordinate of other angles than `chosen`: "which is understood with

@@ -361,7 +361,7 @@ ItemLoads<I> item_loads(const UndisturbedBox<I>& box, const Matrix3<I>& r_WP, co
     for (std::size_t side = 0; side < 2; ++side) {
       const Extremum which = side == 0 ? Extremum::kLeast : Extremum::kGreatest;
       const ExtremalLoad<I> load = loads.find(x.force[r], x.moment[r], which);
-      result[r][side] = {densities(x, Vector6<I>(load.wrench + box.model.wrench)), load.by_turn,
+      result[r][side] = {densities(x, Vector6<I>(load.wrench + box.wrench)), load.by_turn,
                          above(side == 0 ? range.below : range.above)};
     }
   }
@@ -414,7 +414,7 @@ ItemLoads<Interval> item_loads_of_all_rows(const UndisturbedBox<Interval>& box, 
                                            const OnAll<Interval>& x, const Square<double>& errors) {
   const RowBalls rows = row_balls(box.c, errors);
   const ExtremalRows extremes = box.item_rows.extremes(ItemRows::rotation(r_WP), rows);
-  const Vector6<Interval> nominal = box.item_rows.nominal_wrench(r_WP) + box.model.wrench;
+  const Vector6<Interval> nominal = box.item_rows.nominal_wrench(r_WP) + box.wrench;
   const std::array<Interval, kCables> kappa = densities(x, nominal);
   ItemLoads<Interval> result;
   for (std::size_t side = 0; side < 2; ++side) {
@@ -516,7 +516,8 @@ class States {
       }
       I load_rate(0.0);
       for (int n = 0; n < 3; ++n) {
-        load_rate = load_rate + x.force[r](n) * tolerance_.wrench(n) + x.moment[r](n) * tolerance_.wrench(n + 3);
+        load_rate = load_rate + x.force[r](n) * (tolerance_.wrench(n) + box_.wrench_change(n)) +
+                    x.moment[r](n) * (tolerance_.wrench(n + 3) + box_.wrench_change(n + 3));
       }
       x.load_rate[r] = load_rate;
       // λ(τ) = S λ(0) + τ Y(τ) ŵ.

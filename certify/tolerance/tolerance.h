@@ -70,7 +70,9 @@ struct UndisturbedBox {
   const Matrix6<typename ProofScalarTraits<I>::Point>& c;             ///< C
   const Square<UpperOf<I>>& q;                                        ///< D^-1 = P C on T, |P − I| <= Q
   bool length_controlled;
-  bool is_item_by_item = false;  ///< sharper and slower bounds where loads are items, for Interval
+  const Vector6<I>& wrench;         ///< of the load beside items, and of inertia, in all states [N, N m]
+  const Vector6<I>& wrench_change;  ///< by what a deviation may change it, beside ŵ; it contains 0
+  bool is_item_by_item = false;     ///< sharper and slower bounds where loads are items, for Interval
 };
 
 /// The largest number of continuation steps.

@@ -6,6 +6,7 @@
 #include "checker/kernel/clearance.h"
 #include "checker/kernel/deviation.h"
 #include "checker/kernel/motion.h"
+#include "checker/kernel/moving.h"
 
 namespace taut::checker {
 namespace {
@@ -26,16 +27,32 @@ void add_clearance(const Machine& machine, const Geometry& geometry, const Margi
   }
 }
 
+/// In a move: what acts beside items and ellipsoid, inertia included. @throws Undefined where a limit in time may not
+/// be kept.
+std::optional<WrenchBeside> beside_in_time(const Machine& machine, const Problem& problem, const Path& path,
+                                           std::size_t k, const Box& box) {
+  if (!path.timing) return std::nullopt;
+  const Moving at = moving(machine, problem, path, k, box);
+  for (const RateMargin& margin : at.margins) {
+    if (!certainly_positive(margin.value)) throw Undefined("a limit of speeds or accelerations may not be kept");
+  }
+  WrenchBeside result{machine.wrench, at.change_by_turn};
+  for (std::size_t i = 0; i < 6; ++i) result.wrench[i] -= at.inertia[i];
+  return result;
+}
+
 }  // namespace
 
 Bounds prove_box(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
                  const Apart& apart, const std::optional<mpq_class>& enough) {
   const Geometry geometry = commanded_geometry(machine, problem, path, k, box);
   const Inverse inverse(geometry.D);  // J is non-singular on the box
-  const Tensions tensions = machine.tensions(geometry, inverse);
+  const std::optional<WrenchBeside> in_time = beside_in_time(machine, problem, path, k, box);
+  const Tensions tensions = machine.tensions(geometry, inverse, in_time ? in_time->wrench : machine.wrench);
   MarginLoss loss;
   if (machine.tolerances) {
-    loss = margin_loss(machine, geometry, inverse, is_length_controlled(problem, path), box.parts, box.guesses);
+    loss = margin_loss(machine, geometry, inverse, is_length_controlled(problem, path), box.parts, box.guesses,
+                       in_time ? &*in_time : nullptr);
   }
   std::optional<Bounds> result;
   for (std::size_t i = 0; i < kCables; ++i) {

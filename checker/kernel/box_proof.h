@@ -19,7 +19,8 @@ struct Bounds {
 
 /// Claim. For every s of the box, every machine, load and pose within the tolerances: the pose exists, its parameters
 /// are in their ranges, J is non-singular, tensions and lengths keep the returned distances from their limits, and the
-/// bodies of each checked pair that from its clearance.
+/// bodies of each checked pair that from its clearance. Of a move, tensions are those with inertia at every time at
+/// which it is on the box, and the limits in time are kept.
 /// @pre the box reaches across no inner pose, and its precision is the working precision of `machine`
 /// @param apart  along which of the path's directions each pair of bodies is told apart
 /// @param enough  if given, no larger clearance of a mesh is asked for [m]

@@ -46,8 +46,13 @@ void for_each(const Visit& visit, All&... all) {
 class Family {
  public:
   /// At t = 0.
-  Family(const Machine& machine, const Geometry& geometry, const Inverse& inverse, bool length_controlled)
-      : machine_(machine), length_controlled_(length_controlled), whole_(*machine.tolerances) {
+  Family(const Machine& machine, const Geometry& geometry, const Inverse& inverse, bool length_controlled,
+         const Vector6<Ball>& wrench, const Vector6<Ball>& wrench_tolerance)
+      : machine_(machine),
+        length_controlled_(length_controlled),
+        whole_(*machine.tolerances),
+        wrench_(wrench),
+        wrench_tolerance_(wrench_tolerance) {
     if (whole_.cable_length) e_ = *whole_.cable_length;
     const Matrix3<Ball> R = range(geometry.pose.R);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -210,7 +215,7 @@ class Family {
 
   void set_loads(const Ball& until) {
     Vector6<Ball> wrench;
-    for (std::size_t i = 0; i < 6; ++i) wrench[i] = plus_minus(machine_.wrench[i], until * whole_.wrench[i]);
+    for (std::size_t i = 0; i < 6; ++i) wrench[i] = plus_minus(wrench_[i], until * wrench_tolerance_[i]);
     x_ = multiply(now_.Y, wrench);
     if (machine_.ellipsoid) z_ = multiply(now_.Y, *machine_.ellipsoid);
     levers_.resize(machine_.items.size());
@@ -254,7 +259,7 @@ class Family {
     const Ball P_size = length_bound(P);
     const Ball turn_size = length_bound(Q + cross(now_.Rp_m, P));
     Ball of_wrench;
-    for (std::size_t k = 0; k < 6; ++k) of_wrench += now_.Y[r][k] * whole_.wrench[k];
+    for (std::size_t k = 0; k < 6; ++k) of_wrench += now_.Y[r][k] * wrench_tolerance_[k];
     Ball rate = whole_.position * P_size + whole_.orientation * turn_size +
                 whole_.load_point * length_bound(of_load_point) + magnitude(length_[r] * of_wrench);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -280,7 +285,8 @@ class Family {
 
   const Machine& machine_;
   bool length_controlled_;
-  const Tolerances<Ball, Ball>& whole_;  ///< at t = 1
+  const Tolerances<Ball, Ball>& whole_;  ///< at t = 1, but for the wrench's
+  const Vector6<Ball>&wrench_, &wrench_tolerance_;
   Vector6<Ball> length_start_;
   Vector6<Ball> e_, rho_;          ///< |e_i|, |rho_i| <=
   Vector6<Ball> b_size_, r_size_;  ///< |b_i'|, |b_i' - p_m'| <=
@@ -301,13 +307,31 @@ class Family {
 }  // namespace
 
 MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const Inverse& inverse, bool length_controlled,
-                       int parts, int guesses) {
-  MarginLoss result;
+                       int parts, int guesses, const WrenchBeside* beside) {
   const Ball share = Ball(1) / Ball(parts);
-  Family family(machine, geometry, inverse, length_controlled);
+  const auto go = [&](Family& family, const auto& at_part) {
+    for (int part = 1; part <= parts; ++part) {
+      family.advance(share, Ball(mpq_class(part, parts)), guesses);
+      at_part();
+    }
+  };
+  const Tolerances<Ball, Ball>& whole = *machine.tolerances;
+  Vector6<Ball> wrench = machine.wrench, tolerance = whole.wrench;
+  if (beside != nullptr) {
+    Family family(machine, geometry, inverse, length_controlled, machine.wrench, whole.wrench);
+    Ball turn = whole.orientation;
+    go(family, [&] { turn += share * family.commanded_pose_rate().turn; });
+    if (!certainly_positive(Ball(1) - turn)) throw Undefined("a deviation may turn the platform far");
+    wrench = beside->wrench;
+    for (std::size_t i = 0; i < 6; ++i) {
+      tolerance[i] = plus_minus(tolerance[i], highest(magnitude(turn) * beside->change_by_turn[i]));
+    }
+  }
+
+  MarginLoss result;
+  Family family(machine, geometry, inverse, length_controlled, wrench, tolerance);
   Vector6<Ball> nominal;
-  for (int part = 1; part <= parts; ++part) {
-    family.advance(share, Ball(mpq_class(part, parts)), guesses);
+  go(family, [&] {
     const PoseShift rate = family.commanded_pose_rate();
     result.shift.position += share * rate.position;
     result.shift.turn += share * rate.turn;
@@ -317,7 +341,7 @@ MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const I
       for (std::size_t side = 0; side < 2; ++side) result.tension[i][side] += share * rates.extreme[side];
       nominal[i] += share * rates.nominal;
     }
-  }
+  });
   for (std::size_t i = 0; i < 6; ++i) {
     if (length_controlled) result.length[i] = family.controlled_length_loss(i);
     // Of the ellipsoid alone the two extremes differ by 2 v, which changes by no more than the sum of their changes.
@@ -325,8 +349,8 @@ MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const I
     result.radius[i].fill(half(least + most));
     if (!machine.items.empty()) result.radius[i] = {least + nominal[i], most + nominal[i]};
   }
-  result.shift.position = highest(result.shift.position + machine.tolerances->position);
-  result.shift.turn = highest(result.shift.turn + machine.tolerances->orientation);
+  result.shift.position = highest(result.shift.position + whole.position);
+  result.shift.turn = highest(result.shift.turn + whole.orientation);
   return result;
 }
 

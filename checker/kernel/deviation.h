@@ -42,6 +42,10 @@
 // ... Where lengths are controlled, it is L_i + e_i at the commanded pose of the whole deviation, from which tracking
 // then takes it by no more than the distance and the angle times |b_i'|.
 //
+// In a move, w0 is less than stated by the inertia w_in of the commanded motion, and a deviating machine's differs from
+// that by an e in E, which the turn of its pose bounds (moving.h). The family has the load w - w_in - t e then, so that
+// e enters like a tolerance of w0. E is known once the pose is, which no load moves: so the way is gone twice.
+//
 // The pose itself.  The platform's origin is -R p_m from P_m, so where lengths are controlled the commanded pose moves
 // at the rates
 //     p_c' = sum_j rho_j (f_j - m_j x R p_m),   W_c = sum_j rho_j m_j,
@@ -67,11 +71,20 @@ struct MarginLoss {
   PoseShift shift;                             ///< of the pose
 };
 
+/// What acts beside the items and the ellipsoid's spread. In a move, inertia belongs to it.
+struct WrenchBeside {
+  Vector6<Ball> wrench;  ///< of the machine as stated
+  Vector6<Ball>
+      change_by_turn;  ///< by how much more than the stated tolerance it may differ, over the pose's turn <= 1
+};
+
 /// @param parts    n above: more are tighter
 /// @param guesses  how often rates are evaluated before each part's guess must hold
+/// @param beside   null: w0
 /// @throws Undefined unless every machine within the tolerances has its pose, and D is non-singular there, for every u.
 /// @pre machine.tolerances
 [[nodiscard]] MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const Inverse& inverse,
-                                     bool length_controlled, int parts, int guesses);
+                                     bool length_controlled, int parts, int guesses,
+                                     const WrenchBeside* beside = nullptr);
 
 }  // namespace taut::checker

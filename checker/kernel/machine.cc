@@ -131,7 +131,7 @@ Geometry Machine::geometry(const Frame& pose) const {
   return result;
 }
 
-Tensions Machine::tensions(const Geometry& geometry, const Inverse& inverse) const {
+Tensions Machine::tensions(const Geometry& geometry, const Inverse& inverse, const Vector6<Ball>& beside) const {
   Tensions result;
   if (ellipsoid) {
     const Matrix6<MeanValueForm> Z = inverse.times(*ellipsoid);
@@ -142,19 +142,20 @@ Tensions Machine::tensions(const Geometry& geometry, const Inverse& inverse) con
     }
   }
   if (items.empty()) {
-    result.density = inverse.times(wrench);
+    result.density = inverse.times(beside);
   } else {
-    add_items(geometry.pose.R, inverse, result);
+    add_items(geometry.pose.R, inverse, beside, result);
   }
   return result;
 }
 
 /// The nominal wrench w is known to first order: D^-1 w = D^-1 c + sum_k (column k of D^-1) (w - c)_k, with c the
 /// numbers in the middle of w. The first term is much closer than a sum over columns.
-void Machine::add_items(const Matrix3<MeanValueForm>& R, const Inverse& inverse, Tensions& to) const {
+void Machine::add_items(const Matrix3<MeanValueForm>& R, const Inverse& inverse, const Vector6<Ball>& beside,
+                        Tensions& to) const {
   const Matrix6<MeanValueForm> Y = inverse.rows();
   Vector6<MeanValueForm> nominal;
-  for (std::size_t k = 0; k < 6; ++k) nominal[k] = MeanValueForm(wrench[k]);
+  for (std::size_t k = 0; k < 6; ++k) nominal[k] = MeanValueForm(beside[k]);
   for (const Load& item : items) {
     const Vector6<MeanValueForm> w = item.nominal_about_load_point(R);
     for (std::size_t k = 0; k < 6; ++k) nominal[k] += w[k];

@@ -91,10 +91,15 @@ struct Machine {
 
   /// @throws Undefined where a cable may have no length.
   [[nodiscard]] Geometry geometry(const Frame& pose) const;
-  [[nodiscard]] Tensions tensions(const Geometry& geometry, const Inverse& inverse) const;
+  /// @param beside  what acts beside the items and the ellipsoid's spread: w0, less inertia in a move
+  [[nodiscard]] Tensions tensions(const Geometry& geometry, const Inverse& inverse, const Vector6<Ball>& beside) const;
+  [[nodiscard]] Tensions tensions(const Geometry& geometry, const Inverse& inverse) const {
+    return tensions(geometry, inverse, wrench);
+  }
 
  private:
-  void add_items(const Matrix3<MeanValueForm>& R, const Inverse& inverse, Tensions& to) const;
+  void add_items(const Matrix3<MeanValueForm>& R, const Inverse& inverse, const Vector6<Ball>& beside,
+                 Tensions& to) const;
 };
 
 }  // namespace taut::checker

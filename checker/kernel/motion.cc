@@ -3,54 +3,11 @@
 
 #include <algorithm>
 
+#include "checker/kernel/curve.h"
 #include "checker/kernel/rotation.h"
 
 namespace taut::checker {
 namespace {
-
-// ---- The curve ------------------------------------------------------------------------------------------------------
-
-/// c0 + c1 s + c2 s^2 + c3 s^3.
-using Polynomial = std::array<mpq_class, 4>;
-
-/// One coordinate of a segment, from those of its control points.
-Polynomial mix(const std::vector<mpq_class>& q) {
-  switch (q.size()) {
-    case 1: return {q[0]};
-    case 2: return {q[0], q[1] - q[0]};
-    case 4:
-      return {(q[0] + 4 * q[1] + q[2]) / 6, (q[2] - q[0]) / 2, (q[0] - 2 * q[1] + q[2]) / 2,
-              (q[3] - 3 * q[2] + 3 * q[1] - q[0]) / 6};
-    default: throw std::logic_error("a segment has one, two or four control points");
-  }
-}
-
-/// The coefficients of p(m + r u) as a polynomial in u.
-Polynomial over(const Polynomial& p, const Box& box) {
-  const mpq_class m = (box.begin + box.end) / 2;
-  const mpq_class r = (box.end - box.begin) / 2;
-  if (p[2] == 0 && p[3] == 0) return {p[0] + m * p[1], r * p[1]};
-  return {p[0] + m * (p[1] + m * (p[2] + m * p[3])), r * (p[1] + m * (2 * p[2] + m * 3 * p[3])),
-          r * r * (p[2] + 3 * m * p[3]), r * r * r * p[3]};
-}
-
-/// One number of each control point, mixed, over the box.
-template <class Number>
-Polynomial mixed(std::span<const Waypoint> controls, const Box& box, const Number& number) {
-  std::vector<mpq_class> values;
-  for (const Waypoint& waypoint : controls) values.emplace_back(number(waypoint));
-  return over(mix(values), box);
-}
-
-/// Of a polynomial in u with coefficients a + b pi. They are summed before u enters: the two parts may nearly cancel.
-MeanValueForm form(const Polynomial& a, const Polynomial& b = {}) {
-  std::array<Ball, 4> c;
-  for (std::size_t i = 0; i < 4; ++i) {
-    c[i] = Ball(a[i]);
-    if (b[i] != 0) c[i] += Ball(b[i]) * Ball::pi();
-  }
-  return {c[0] + from_zero_to(c[2]), c[1] + from_zero_to(c[3])};  // u^2 is in [0, 1], u^3 = u u^2
-}
 
 /// The parameters l(u) + N(u) y, and g(y, u) = C(l(u) + N(u) y).
 class OnConstraints : public Equations {
@@ -59,11 +16,11 @@ class OnConstraints : public Equations {
       : constraints_(problem.constraints) {
     const std::span<const Waypoint> controls = path.controls(k);
     for (std::size_t j = 0; j < controls[0].x.size(); ++j) {
-      line_.push_back(form(mixed(controls, box, [&](const Waypoint& w) { return w.x[j]; }),
-                           mixed(controls, box, [&](const Waypoint& w) { return w.half_turns[j]; })));
+      const auto [own, by_pi] = coordinate(controls, j);
+      line_.push_back(form(over(own, box), over(by_pi, box)));
       std::vector<MeanValueForm>& row = normals_.emplace_back();
       for (std::size_t i = j * unknowns(); i < (j + 1) * unknowns(); ++i) {
-        row.push_back(form(mixed(controls, box, [&](const Waypoint& w) { return w.normals[i]; })));
+        row.push_back(form(over(mixed(controls, [&](const Waypoint& w) { return w.normals[i]; }), box)));
       }
     }
   }
@@ -114,7 +71,7 @@ Frame frame(const Problem& problem, const Vector6<MeanValueForm>& pose) {
 /// From one pose to another: the position on a straight line, the rotation about one axis and at a constant rate.
 Frame geodesic(std::span<const Waypoint> controls, const Box& box) {
   const auto position = [&](std::size_t i) {
-    return form(mixed(controls, box, [i](const Waypoint& w) { return w.x[i]; }));
+    return form(over(mixed(controls, [i](const Waypoint& w) { return w.x[i]; }), box));
   };
   const auto vector = [](const Waypoint& w) { return ExactVector{w.x[3], w.x[4], w.x[5]}; };
   const auto constant = [](const mpq_class& x) { return MeanValueForm(Ball(x)); };
@@ -210,7 +167,7 @@ LengthControlled length_controlled(const Machine& machine, const Path& path, std
   const std::span<const Waypoint> controls = path.controls(k);
   LengthControlled result;
   for (std::size_t i = 0; i < 6; ++i) {
-    result.lengths[i] = form(mixed(controls, box, [&](const Waypoint& w) { return w.x[7 + i]; }));
+    result.lengths[i] = form(over(mixed(controls, [&](const Waypoint& w) { return w.x[7 + i]; }), box));
     for (std::size_t c = 0; c < 3; ++c) {
       result.base[i][c] = MeanValueForm(machine.base[i][c]);
       result.platform[i][c] = MeanValueForm(machine.platform[i][c]);

@@ -69,6 +69,9 @@ inline mpq_class dot(const ExactVector& a, const ExactVector& b) { return a[0] *
 struct Weight {
   Limits mass;
   mpq_class offset;
+  /// In a move: the sides of a box along the axes of P that the mass fills evenly around its centre of gravity; else it
+  /// is a point [m].
+  std::optional<ExactVector> inertia_box = std::nullopt;
 };
 /// All forces [N] or moments [N m] of magnitude up to `radius` >= 0; with a normal, which is not 0, those at right
 /// angles to it.
@@ -216,6 +219,13 @@ using ContactWeights = std::array<std::vector<mpq_class>, 2>;
 /// Which element, of each of two bodies that is a mesh.
 using ContactElements = std::array<std::optional<std::size_t>, 2>;
 
+/// Limits of what a move does in time: constants, if they are stated. Speeds [m/s, rad/s] and accelerations [m/s^2,
+/// rad/s^2] of the commanded lengths |d_i|, of the load point, and of the platform's rotation.
+struct TimeLimits {
+  std::array<std::optional<Expression>, kCables> winch_speed, winch_acceleration;
+  std::optional<Expression> load_speed, load_acceleration, load_angular_speed, load_angular_acceleration;
+};
+
 /// K is the sum of the items and of the ellipsoid { w0 + e : e' E e <= 1 }. Where there are items, load point and
 /// wrench have no tolerances.
 struct Problem {
@@ -230,6 +240,7 @@ struct Problem {
   std::vector<LoadItem> items;                          ///< none only where there is an ellipsoid
   std::optional<ToleranceBounds> tolerances;
   std::optional<Bodies> bodies;
+  std::optional<TimeLimits> time = std::nullopt;  ///< of moves
   std::vector<Parameter> parameters;
   std::optional<std::array<std::size_t, 2>> flip;
   AngleKind angles = AngleKind::kTiltAndTorsion;
@@ -266,6 +277,12 @@ struct InnerPose {
   PoseTube tube;              ///< from here to the next
 };
 
+/// When a move is where on its path (moving.h).
+struct TimeLaw {
+  double step_s = 0;             ///< h > 0 [s]
+  std::vector<double> controls;  ///< four or more, none below the one before it
+};
+
 struct Path {
   Law law = Law::kStraight;
   std::vector<Waypoint> waypoints;
@@ -273,6 +290,7 @@ struct Path {
   std::vector<PoseTube> pose_tubes;                 ///< one a segment under kCableLengths, up to its first inner pose
   std::vector<std::vector<InnerPose>> inner_poses;  ///< likewise, by rising s
   std::vector<Direction> directions;                ///< along which pairs of bodies are told apart, by their index
+  std::optional<TimeLaw> timing = std::nullopt;     ///< of a move
 
   [[nodiscard]] std::size_t control_points() const { return law == Law::kCubicBSpline ? 4 : 2; }
   [[nodiscard]] std::size_t segments() const {

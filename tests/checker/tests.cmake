@@ -2,7 +2,7 @@
 foreach(header zero)
   taut_add_test(checker ${header} LABELS unit LIBS taut_checker taut::certify)
 endforeach()
-foreach(header mean_value_form loads machine motion deviation clearance witness)
+foreach(header mean_value_form loads machine motion moving deviation clearance witness)
   taut_add_test(checker ${header} LABELS unit laws LIBS taut_checker taut::certify taut::case)
 endforeach()
 taut_add_test(checker mesh LABELS unit LIBS taut_checker taut::certify)

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "certify/motion/moving.h"
+
+#include <stdexcept>
+
+#include "base/input_error.h"
+#include "certify/motion/law_range.h"
+
+namespace taut {
+
+template <class I>
+MovingModel<I>::MovingModel(const Problem& problem) : rates_(problem), bodies_(make_moving_bodies<I>(problem.load)) {
+  if (!problem.space.constraints.empty()) throw InputError("time: got a space with constraints, expected one without");
+  if (bodies_.empty()) throw InputError("time: got a load without a mass, expected items of which one has some");
+  const TimeText& text = problem.time.value();
+  const auto add = [&](RateId id, const TimeText::Limit& limit) {
+    if (limit) limits_.push_back({id, evaluate_constant<I>(*limit)});
+  };
+  for (int cable = 0; cable < static_cast<int>(kCables); ++cable) {
+    const auto i = static_cast<std::size_t>(cable);
+    add({RateKind::kWinchSpeed, cable}, text.winch_speed_m_s[i]);
+    add({RateKind::kWinchAcceleration, cable}, text.winch_acceleration_m_s2[i]);
+  }
+  add({RateKind::kLoadSpeed}, text.load_speed_m_s);
+  add({RateKind::kLoadAcceleration}, text.load_acceleration_m_s2);
+  add({RateKind::kLoadAngularSpeed}, text.load_angular_speed_rad_s);
+  add({RateKind::kLoadAngularAcceleration}, text.load_angular_acceleration_rad_s2);
+}
+
+template <class I>
+Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range) const {
+  if (segment.timing == nullptr || !PathRatesModel<I>::knows(segment.law)) {
+    throw std::logic_error("a segment without a time law, or of a law whose derivatives are not known");
+  }
+  const PathRates<I> path = rates_.at(segment, range);
+  const LawRange<I> law = law_range(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
+  Moving<I> result;
+  result.r_WP = path.r_WP;
+  result.rates = by_time(path, law.rate, law.acceleration);
+  result.wrench = inertial_wrench(bodies_, path.r_WP, result.rates);
+
+  const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, result.rates);
+  const Vector3<I> arm = turned(path.r_WP, model.p_PM);
+  const auto norm = [](const Vector3<I>& v) { return euclidean_norm(v(0), v(1), v(2)); };
+  const auto rate = [&](const RateId& id) -> I {
+    const auto i = static_cast<std::size_t>(id.cable);
+    switch (id.kind) {
+      case RateKind::kWinchSpeed: return absolute(winches.speed[i]);
+      case RateKind::kWinchAcceleration: return absolute(winches.acceleration[i]);
+      case RateKind::kLoadSpeed: return norm(velocity_at(result.rates, arm));
+      case RateKind::kLoadAcceleration: return norm(acceleration_at(result.rates, arm));
+      case RateKind::kLoadAngularSpeed: return norm(result.rates.angular_velocity);
+      case RateKind::kLoadAngularAcceleration: break;
+    }
+    return norm(result.rates.angular_acceleration);
+  };
+  for (const Limit& limit : limits_) result.margins.push_back({limit.id, limit.most - rate(limit.id)});
+  return result;
+}
+
+template <class I>
+Vector6<I> MovingModel<I>::change(const Moving<I>& undisturbed, const I& turn) const {
+  // On the straight line from R to another rotation R', by u from 0 to 1: a turn by an angle moves no unit vector
+  // farther than that, and w_in, a polynomial in R, changes by some value of its derivative by u.
+  using J = Jet<I, 1>;
+  const I off = hull(-turn, turn);
+  Matrix3<J> r_WP;
+  for (int i = 0; i < 9; ++i) {
+    r_WP(i) = J(I(undisturbed.r_WP(i) + off));
+    r_WP(i).partial[0] = off;
+  }
+  const auto constant = [](const Vector3<I>& v) { return Vector3<J>(J(v(0)), J(v(1)), J(v(2))); };
+  std::vector<MovingBody<J>> bodies;
+  for (const MovingBody<I>& body : bodies_) {
+    MovingBody<J> next;
+    next.mass = J(body.mass);
+    next.p_PC = constant(body.p_PC);
+    next.p_MC = constant(body.p_MC);
+    for (int i = 0; i < 9; ++i) next.inertia(i) = J(body.inertia(i));
+    bodies.push_back(next);
+  }
+  const Rates<I>& x = undisturbed.rates;
+  const Rates<J> rates{constant(x.velocity), constant(x.acceleration), constant(x.angular_velocity),
+                       constant(x.angular_acceleration)};
+  const Vector6<J> wrench = inertial_wrench(bodies, r_WP, rates);
+  Vector6<I> result;
+  for (int k = 0; k < 6; ++k) result(k) = hull(I(0.0), wrench(k).partial[0]);
+  return result;
+}
+
+template class MovingModel<Interval>;
+template class MovingModel<MpInterval>;
+
+}  // namespace taut

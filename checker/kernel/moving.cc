@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "checker/kernel/moving.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "checker/kernel/curve.h"
+#include "checker/kernel/rotation.h"
+#include "checker/kernel/second_jet.h"
+
+namespace taut::checker {
+namespace {
+
+// ---- The law --------------------------------------------------------------------------------------------------------
+
+/// σ on its pieces, by u = t/h - k.
+class PiecewiseLaw {
+ public:
+  explicit PiecewiseLaw(const TimeLaw& law) : controls_(law.controls) {}
+
+  [[nodiscard]] std::size_t pieces() const { return controls_.size() - 3; }
+  [[nodiscard]] Polynomial piece(std::size_t k) const {
+    std::vector<mpq_class> q;
+    for (std::size_t i = k; i < k + 4; ++i) q.emplace_back(controls_[i]);
+    return mix(q);
+  }
+  /// σ where piece k begins, or where the last one ends.
+  [[nodiscard]] mpq_class at_knot(std::size_t k) const {
+    return (mpq_class(controls_[k]) + 4 * mpq_class(controls_[k + 1]) + mpq_class(controls_[k + 2])) / 6;
+  }
+
+ private:
+  const std::vector<double>& controls_;
+};
+
+/// The last k in [0, n] with is_before(k), of which none holds behind one that does not; 0 if there is none.
+template <class Predicate>
+std::size_t last_before(std::size_t n, const Predicate& is_before) {
+  std::size_t from = 0;
+  for (std::size_t to = n + 1; to - from > 1;) {
+    const std::size_t middle = from + (to - from) / 2;
+    (is_before(middle) ? from : to) = middle;
+  }
+  return from;
+}
+
+struct LawRange {
+  Ball rate, acceleration;  ///< σ' [1/s], σ'' [1/s^2]
+};
+
+/// Over all times at which σ is in [a, b].
+LawRange law_range(const TimeLaw& text, const mpq_class& a, const mpq_class& b) {
+  constexpr int kHalvings = 16;  // of a piece
+  const PiecewiseLaw law(text);
+  const std::size_t n = law.pieces();
+  const std::size_t first = std::min(last_before(n, [&](std::size_t k) { return law.at_knot(k) < a; }), n - 1);
+  const std::size_t behind = n - last_before(n, [&](std::size_t k) { return law.at_knot(n - k) > b; });
+  const std::size_t last = std::max(first, behind == 0 ? 0 : behind - 1);
+  const auto at = [](const Polynomial& p, const mpq_class& u) -> mpq_class {
+    return p[0] + u * (p[1] + u * (p[2] + u * p[3]));
+  };
+  const Polynomial first_piece = law.piece(first), last_piece = law.piece(last);
+  mpq_class u1 = 0, u2 = 1, by(1, 2);
+  for (int k = 0; k < kHalvings; ++k, by /= 2) {
+    if (at(first_piece, u1 + by) < a) u1 += by;
+    if (at(last_piece, u2 - by) > b) u2 -= by;
+  }
+  LawRange result;
+  for (std::size_t k = first; k <= last; ++k) {
+    Box part;
+    part.begin = k == first ? u1 : mpq_class(0);
+    part.end = k == last ? std::max(u2, part.begin) : mpq_class(1);
+    const Polynomial p = law.piece(k);
+    const Ball rate = form(over(derivative(p), part)).range();
+    const Ball acceleration = form(over(derivative(derivative(p)), part)).range();
+    if (k == first) {
+      result = {rate, acceleration};
+    } else {
+      result = {hull(result.rate, rate), hull(result.acceleration, acceleration)};
+    }
+  }
+  const Ball step(text.step_s);
+  return {result.rate / step, result.acceleration / sqr(step)};
+}
+
+// ---- The platform ---------------------------------------------------------------------------------------------------
+
+/// The pose by s over a box.
+struct FrameJet {
+  Vector3<SecondJet> p;
+  Matrix3<SecondJet> R;
+};
+
+FrameJet frame_over(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
+  std::vector<SecondJet> parameters;
+  const std::span<const Waypoint> controls = path.controls(k);
+  for (std::size_t j = 0; j < controls[0].x.size(); ++j) {
+    const auto [a, b] = coordinate(controls, j);
+    const auto by_s = [&](const auto& map) { return form(over(map(a), box), over(map(b), box)).range(); };
+    parameters.emplace_back(by_s([](const Polynomial& p) { return p; }),
+                            by_s([](const Polynomial& p) { return derivative(p); }),
+                            by_s([](const Polynomial& p) { return derivative(derivative(p)); }));
+  }
+  Vector6<SecondJet> pose;
+  for (std::size_t c = 0; c < 6; ++c) pose[c] = problem.pose[c].evaluate<SecondJet>(parameters);
+  return {{pose[0], pose[1], pose[2]}, orientation(problem, pose)};
+}
+
+Matrix3<Ball> map(const Matrix3<SecondJet>& R, Ball SecondJet::*what) {
+  Matrix3<Ball> result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) result[i][j] = R[i][j].*what;
+  }
+  return result;
+}
+
+/// Of the skew part of M.
+Vector3<Ball> axis_of(const Matrix3<Ball>& M) {
+  return {half(M[2][1] - M[1][2]), half(M[0][2] - M[2][0]), half(M[1][0] - M[0][1])};
+}
+
+class Rates {
+ public:
+  Rates(FrameJet frame, LawRange law) : frame_(std::move(frame)), law_(std::move(law)) {
+    R = map(frame_.R, &SecondJet::value);
+    const Matrix3<Ball> back = transposed(R);
+    const Vector3<Ball> w = axis_of(multiply(map(frame_.R, &SecondJet::first), back));
+    const Vector3<Ball> w1 = axis_of(multiply(map(frame_.R, &SecondJet::second), back));
+    for (std::size_t c = 0; c < 3; ++c) {
+      spin[c] = speed(SecondJet(Ball(), w[c], Ball()));
+      spin_change[c] = acceleration(SecondJet(Ball(), w[c], w1[c]));
+    }
+  }
+
+  [[nodiscard]] Vector3<SecondJet> point(const Vector3<Ball>& x) const { return frame_.p + multiply(frame_.R, x); }
+  [[nodiscard]] Ball speed(const SecondJet& x) const { return x.first * law_.rate; }
+  [[nodiscard]] Ball acceleration(const SecondJet& x) const {
+    return x.second * sqr(law_.rate) + x.first * law_.acceleration;
+  }
+  [[nodiscard]] Vector3<Ball> velocity(const Vector3<SecondJet>& X) const {
+    return {speed(X[0]), speed(X[1]), speed(X[2])};
+  }
+  [[nodiscard]] Vector3<Ball> acceleration(const Vector3<SecondJet>& X) const {
+    return {acceleration(X[0]), acceleration(X[1]), acceleration(X[2])};
+  }
+
+  Matrix3<Ball> R;
+  Vector3<Ball> spin, spin_change;  ///< ω and its rate, axes of W
+
+ private:
+  FrameJet frame_;
+  LawRange law_;
+};
+
+// ---- Inertia --------------------------------------------------------------------------------------------------------
+
+void add_weight(const Weight& weight, const LoadItem& item, const Machine& machine, const Rates& rates, Moving& to) {
+  const Ball mass = hull(Ball(weight.mass.lower), Ball(weight.mass.upper));
+  Vector3<Ball> c, arm;
+  for (std::size_t i = 0; i < 3; ++i) {
+    c[i] = plus_minus(Ball(item.at[i]), Ball(weight.offset));
+    arm[i] = c[i] - machine.load_point[i];
+  }
+  Vector3<Ball> moments;  // the diagonal of I
+  if (weight.inertia_box) {
+    const ExactVector& side = *weight.inertia_box;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const mpq_class &x = side[(i + 1) % 3], &y = side[(i + 2) % 3];
+      moments[i] = mass * Ball(mpq_class((x * x + y * y) / 12));
+    }
+  }
+  const Vector3<Ball> a = rates.acceleration(rates.point(c));
+  const Vector3<Ball> force = mass * a;
+  const Matrix3<Ball> back = transposed(rates.R);
+  const auto momentum = [&](const Vector3<Ball>& x) {  // R I R^T x
+    Vector3<Ball> own = multiply(back, x);
+    for (std::size_t i = 0; i < 3; ++i) own[i] = moments[i] * own[i];
+    return multiply(rates.R, own);
+  };
+  const Vector3<Ball> moment =
+      cross(multiply(rates.R, arm), force) + momentum(rates.spin_change) + cross(rates.spin, momentum(rates.spin));
+  const Ball q = length_bound(rates.spin_change) + sqr(length_bound(rates.spin));
+  const Ball c_size = length_bound(c);
+  Ball largest;
+  for (const Ball& x : moments) largest = larger(largest, magnitude(x));
+  const Ball of_force = highest(magnitude(mass) * c_size * q);
+  const Ball of_moment =
+      highest(magnitude(mass) * length_bound(arm) * (length_bound(a) + Ball(2) * c_size * q) + Ball(2) * largest * q);
+  for (std::size_t i = 0; i < 3; ++i) {
+    to.inertia[i] += force[i];
+    to.inertia[3 + i] += moment[i];
+    to.change_by_turn[i] += of_force;
+    to.change_by_turn[3 + i] += of_moment;
+  }
+}
+
+}  // namespace
+
+void require_time_law(const Problem& problem, const Path& path) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw Rejected(what);
+  };
+  require(!has_poses(path.law) && problem.constraints.empty() && path.segments() > 0, "a law in time of such a motion");
+  const std::vector<double>& c = path.timing->controls;
+  require(path.timing->step_s > 0 && c.size() >= 4, "a law in time without a step or a piece");
+  require(std::ranges::is_sorted(c), "a law in time that goes back");
+  const PiecewiseLaw law(*path.timing);
+  const std::size_t end = path.segments();
+  require(law.at_knot(0) == 0 && law.at_knot(law.pieces()) == mpq_class(end), "a law in time of another path");
+  const bool is_spline = path.law == Law::kCubicBSpline;
+  for (std::size_t k = 0; k <= end; ++k) {
+    const bool is_end = k == 0 || k == end;
+    if (is_spline && !is_end) continue;
+    if (std::ranges::count(c, static_cast<double>(k)) >= 3) continue;
+    const auto* const points = path.waypoints.data() + (k == 0 ? 0 : path.waypoints.size() - 3);
+    require(is_spline && points[0] == points[1] && points[1] == points[2], "a move that does not rest where it has to");
+  }
+}
+
+Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box) {
+  if (!path.timing || !problem.time || has_poses(path.law) || !problem.constraints.empty()) {
+    throw std::logic_error("a move whose rates are not known");
+  }
+  const mpq_class begin = k + box.begin, end = k + box.end;
+  const Rates rates(frame_over(problem, path, k, box), law_range(*path.timing, begin, end));
+  Moving result;
+  for (const LoadItem& item : problem.items) {
+    if (const auto* weight = std::get_if<Weight>(&item.set)) add_weight(*weight, item, machine, rates, result);
+  }
+
+  const auto add = [&](RateKind kind, std::size_t cable, const std::optional<Expression>& limit, const auto& rate) {
+    if (!limit) return;
+    result.margins.push_back({kind, cable, limit->evaluate<MeanValueForm>({}).range() - rate()});
+  };
+  const TimeLimits& limits = *problem.time;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const auto length = [&] {
+      Vector3<SecondJet> d = rates.point(machine.platform[i]);
+      for (std::size_t c = 0; c < 3; ++c) d[c] = d[c] - SecondJet(machine.base[i][c]);
+      return apply(Function::kSqrt, squared_norm(d));
+    };
+    const auto size = [](const Ball& x) { return hull(least_magnitude(x), magnitude(x)); };
+    add(RateKind::kWinchSpeed, i, limits.winch_speed[i], [&] { return size(rates.speed(length())); });
+    add(RateKind::kWinchAcceleration, i, limits.winch_acceleration[i],
+        [&] { return size(rates.acceleration(length())); });
+  }
+  const Vector3<SecondJet> load_point = rates.point(machine.load_point);
+  add(RateKind::kLoadSpeed, 0, limits.load_speed, [&] { return length_range(rates.velocity(load_point)); });
+  add(RateKind::kLoadAcceleration, 0, limits.load_acceleration,
+      [&] { return length_range(rates.acceleration(load_point)); });
+  add(RateKind::kLoadAngularSpeed, 0, limits.load_angular_speed, [&] { return length_range(rates.spin); });
+  add(RateKind::kLoadAngularAcceleration, 0, limits.load_angular_acceleration,
+      [&] { return length_range(rates.spin_change); });
+  return result;
+}
+
+}  // namespace taut::checker

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How fast a path can be run: a time law near the fastest one, within limits of winches, load and tensions.
+//
+// By the place s, with x = ṡ² and u = s̈, every limit is a set of rows a u + b x <= c, c >= 0: speeds and accelerations
+// are linear in (u, x), and so is the inertia of the load, hence every tension; norms become polygons. As x' = 2 u, the
+// fastest law is found by reachability (TOPP-RA, H. Pham and Q.-C. Pham, IEEE T-RO 2018): backwards over a grid of s,
+// the largest x from which the next one's is reached; then forwards, always as fast as that allows. Standing still obeys
+// all rows, since the path is feasible: neither pass fails. That law's acceleration jumps. Its mean over a moving window
+// of time is smooth, and becomes the control values of a TimeLaw. Where samples of that break a limit, the rows are
+// tightened there, and all is done again; in the end the whole is slowed down as far as samples need it.
+//
+// Floating point: a law is proposed here, and proves nothing.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kinematics/moving_load.h"
+#include "kinematics/pose_sampler.h"
+#include "kinematics/time_law.h"
+#include "kinematics/time_limits.h"
+
+namespace taut {
+
+struct TimedPathProblem {
+  const Problem& problem;
+  std::vector<MovingBody<double>> bodies;  ///< of the load: what of it has mass
+  TimeLimits limits;
+  double slack = 0.01;         ///< the share of each limit that is left alone
+  std::size_t grid = 64;       ///< places a segment
+  std::size_t most_tries = 8;  ///< of tightening
+};
+
+struct TimedMove {
+  TimeLaw law;
+  /// Of the grid's optimum, without a limit of jerk [s]: what the law is compared with.
+  double fastest_s = 0;
+};
+
+/// How much of its limits a move uses at a place: the largest quotient of a quantity and its limit; of a tension, of what
+/// inertia takes and what there is for it.
+[[nodiscard]] double usage(const TimedPathProblem& problem, const PoseSampler& sampler, const PathRates<double>& path,
+                           double rate, double acceleration);
+
+/// A spline runs from end to end; a path of straight segments rests at each waypoint. Nothing where the path is not
+/// feasible at rest, as far as samples tell, where its motion is only implied, or no limit bounds the speed.
+[[nodiscard]] std::optional<TimedMove> time_optimal(const Path& path, const TimedPathProblem& problem);
+
+}  // namespace taut

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Time laws that are proposed: against closed forms, and within their limits at samples between those of the search.
+#include "planner/time_optimal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinematics/path_rates.h"
+#include "tests/support/robots.h"
+
+namespace taut {
+namespace {
+
+Waypoint at(double x, double y, double z, double phi = 0, double theta = 0, double sigma = 0) {
+  return {{x, y, z, phi, theta, sigma}, std::vector<int>(6, 0)};
+}
+
+MovingBody<double> body(double mass, double radius) {
+  MovingBody<double> result;
+  result.mass = mass;
+  result.p_PC = result.p_MC = {0, 0, 0.01};
+  result.inertia = 0.4 * mass * radius * radius * Matrix3<double>::Identity();
+  return result;
+}
+
+/// The largest usage at places and times between those of the search.
+double greatest_usage(const Path& path, const TimedPathProblem& problem, const TimeLaw& law) {
+  const PoseSampler sampler(problem.problem);
+  const PathRatesModel<double> rates(problem.problem);
+  double most = 0;
+  constexpr int kTimes = 5000;
+  for (int k = 0; k <= kTimes; ++k) {
+    const LawPoint now = at_time(law, law.duration_s() * k / kTimes);
+    const std::size_t segment = std::min(static_cast<std::size_t>(std::max(now.s, 0.0)), path.segments() - 1);
+    most = std::max(most, usage(problem, sampler, rates.at(path.segment(segment), now.s - static_cast<double>(segment)),
+                                now.rate, now.acceleration));
+  }
+  return most;
+}
+
+TEST(TimeOptimal, ALineTakesAsLongAsItsTrapezoid) {
+  const Problem problem = testing::free_flying(testing::robot2_sphere());
+  const Path path{{at(-0.03, 0, 0.3), at(0.03, 0, 0.3)}};
+  TimedPathProblem timed{problem, {}, {}};
+  timed.limits.speed = 0.02;
+  timed.limits.acceleration = 0.05;
+  timed.slack = 0;
+  const auto move = time_optimal(path, timed);
+  ASSERT_TRUE(move);
+  const double expected = 0.06 / 0.02 + 0.02 / 0.05;
+  EXPECT_NEAR(move->fastest_s, expected, 0.01 * expected);
+  Path timed_path = path;
+  timed_path.timing = move->law;
+  EXPECT_EQ(complaint(timed_path), "");
+  EXPECT_LT(move->law.duration_s(), 1.1 * expected);
+  EXPECT_LE(greatest_usage(path, timed, move->law), 1.005);
+  EXPECT_EQ(at_time(move->law, 0).rate, 0);
+  EXPECT_EQ(at_time(move->law, move->law.duration_s()).rate, 0);
+}
+
+TEST(TimeOptimal, ASplineKeepsAllLimitsBetweenSamples) {
+  const Problem problem = testing::free_flying(testing::robot2_sphere());
+  const Waypoint a = at(-0.03, 0, 0.3), b = at(0, 0.03, 0.32, 0.3, 0.1, 0.2), c = at(0.03, 0.01, 0.28, 0.2, 0.2);
+  const Path path{{a, a, a, b, c, c, c}, Interpolation::kCubicBSpline};
+  TimedPathProblem timed{problem, {body(0.5, 0.05)}, {}};
+  timed.limits.speed = 0.2;
+  timed.limits.acceleration = 0.4;
+  timed.limits.angular_speed = 2;
+  timed.limits.angular_acceleration = 3;
+  timed.limits.winch_speed.fill(0.15);
+  timed.limits.winch_acceleration.fill(0.5);
+  double without = 0;
+  for (const double jerk : {TimeLimits::kNone, 20.0, 4.0}) {
+    timed.limits.jerk = jerk;
+    const auto move = time_optimal(path, timed);
+    ASSERT_TRUE(move);
+    Path timed_path = path;
+    timed_path.timing = move->law;
+    EXPECT_EQ(complaint(timed_path), "");
+    EXPECT_LE(greatest_usage(path, timed, move->law), 1) << jerk;
+    EXPECT_GT(greatest_usage(path, timed, move->law), 0.9) << jerk;
+    if (without == 0) without = move->fastest_s;
+    EXPECT_EQ(move->fastest_s, without);
+    EXPECT_LT(move->law.duration_s(), (jerk < 5 ? 1.2 : 1.06) * without) << jerk;
+  }
+}
+
+TEST(TimeOptimal, TensionsAloneBoundTheSpeedWhereTheLoadHasMass) {
+  const Problem problem = testing::free_flying(testing::robot2_sphere());
+  const Path path{{at(-0.03, 0, 0.3), at(0.03, 0, 0.3), at(0.03, 0.03, 0.3)}};
+  TimedPathProblem timed{problem, {body(0.5, 0.05)}, {}};
+  const auto move = time_optimal(path, timed);
+  ASSERT_TRUE(move);
+  EXPECT_LT(move->law.duration_s(), 1.06 * move->fastest_s);
+  EXPECT_LE(greatest_usage(path, timed, move->law), 1);
+  EXPECT_FALSE(time_optimal(path, {problem, {}, {}}));  // nothing bounds it
+}
+
+}  // namespace
+}  // namespace taut

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Moves in time, proved and refuted, against Newton and Euler at 400 bits: particles whose places are differentiated
+// numerically, and statics that are written a second time.
+#include "certify/motion/moving.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "certify/prover.h"
+#include "tests/support/moves.h"
+
+namespace taut::testing {
+namespace {
+
+/// Everything that a claim limits, at a time.
+struct Truth {
+  std::array<BigFloat, kCables> low, high, winch_speed, winch_acceleration;
+  BigFloat speed, acceleration;
+};
+Truth truth(const MovingMachine& machine, const oracle::Move& move, const BigFloat& t) {
+  const Problem& problem = machine.problem;
+  const oracle::Big6 inertia = move.inertia(machine.particles(), oracle::big(problem.load.point_m), t);
+  Problem with_inertia = problem;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const BigFloat w = oracle::big(problem.load.wrench[k]) - inertia[k];
+    with_inertia.load.wrench[k] = w.to_decimal(80, MPFR_RNDN);
+  }
+  const oracle::OracleStatics statics = oracle::statics(with_inertia, move.pose(t));
+  Truth result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    result.low[i] = statics.tension[i] - statics.tension_radius[i];
+    result.high[i] = statics.tension[i] + statics.tension_radius[i];
+    std::tie(result.winch_speed[i], result.winch_acceleration[i]) =
+        move.winch(oracle::big(problem.robot.base_anchors_m[i]), oracle::big(problem.robot.platform_anchors_m[i]), t);
+  }
+  const auto [v, a] = move.rates(oracle::big(problem.load.point_m), t);
+  const oracle::Big3 origin = {BigFloat(0.0), BigFloat(0.0), BigFloat(0.0)};
+  result.speed = oracle::distance(v, origin);
+  result.acceleration = oracle::distance(a, origin);
+  return result;
+}
+
+/// How far a move is from its limits, by what is limited: not positive where one is reached.
+std::map<std::string, BigFloat> slacks(const Problem& problem, const Truth& x) {
+  std::map<std::string, BigFloat> result;
+  const auto add = [&](const std::string& what, const BigFloat& value, const TimeText::Limit& limit) {
+    if (limit) result[what] = oracle::big(*limit) - abs(value);
+  };
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const std::string cable = std::to_string(i);
+    const auto& [lower, upper] = problem.robot.tension_N[i];
+    result["tension_min" + cable] = x.low[i] - oracle::big(lower);
+    result["tension_max" + cable] = oracle::big(upper) - x.high[i];
+    add("winch speed" + cable, x.winch_speed[i], problem.time->winch_speed_m_s[i]);
+    add("winch acceleration" + cable, x.winch_acceleration[i], problem.time->winch_acceleration_m_s2[i]);
+  }
+  add("speed", x.speed, problem.time->load_speed_m_s);
+  add("acceleration", x.acceleration, problem.time->load_acceleration_m_s2);
+  return result;
+}
+
+std::string limit_of(const SegmentWitness& witness) {
+  if (!witness.rate) return name(witness.margin.kind) + std::to_string(witness.margin.cable);
+  const std::string cable = std::to_string(witness.rate->cable);
+  switch (witness.rate->kind) {
+    case RateKind::kWinchSpeed: return "winch speed" + cable;
+    case RateKind::kWinchAcceleration: return "winch acceleration" + cable;
+    case RateKind::kLoadSpeed: return "speed";
+    default: return "acceleration";
+  }
+}
+
+TEST(Moving, ProofsAndRefutationsAgreeWithNewtonAndEuler) {
+  Operands operands(29);
+  std::map<std::string, int> count;
+  const BigFloat error = oracle::big("1e-20");
+  constexpr int kTrials = 240;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    MovingMachine machine(operands);
+    const bool is_limited = trial % 2 == 0;  // else by tensions alone
+    const Path path = some_move(operands, is_limited ? 0.2 : 0.05);
+    if (is_limited) {  // near what the move does
+      const PrecisionScope precision(oracle::kMovingBits);
+      const oracle::Move move = oracle_of(path);
+      const Truth middle = truth(machine, move, BigFloat(path.timing->duration_s() * operands.uniform(0.2, 0.8)));
+      const auto near = [&](const BigFloat& x) -> TimeText::Limit {
+        if (operands.pick(2) == 0) return std::nullopt;
+        return MovingMachine::exact_text(std::abs(x.to_double(MPFR_RNDN)) * operands.uniform(0.9, 8) + 1e-6);
+      };
+      for (std::size_t i = 0; i < kCables; ++i) {
+        machine.problem.time->winch_speed_m_s[i] = near(middle.winch_speed[i]);
+        machine.problem.time->winch_acceleration_m_s2[i] = near(middle.winch_acceleration[i]);
+      }
+      machine.problem.time->load_speed_m_s = near(middle.speed);
+      machine.problem.time->load_acceleration_m_s2 = near(middle.acceleration);
+    }
+    const Prover prover(machine.problem, {.max_bits = 256, .max_boxes = 4000, .max_multiprecision_boxes = 50});
+    const oracle::Move move = oracle_of(path);
+    bool all_proved = true;
+    for (std::size_t k = 0; k < path.segments(); ++k) {
+      const SegmentProof proof = prover.prove(path.segment(k));
+      all_proved = all_proved && proof.verdict == Verdict::kProved;
+      if (proof.verdict == Verdict::kUndecided) ++count["undecided"];
+      if (proof.verdict != Verdict::kRefuted || proof.witness->singular) continue;
+      const std::string limit = limit_of(*proof.witness);
+      if (limit.starts_with("length")) continue;  // that has nothing to do with time
+      ++count[proof.witness->rate ? "too fast" : "tension"];
+      const PrecisionScope precision(oracle::kMovingBits);
+      const BigFloat s = BigFloat(static_cast<double>(k)) + BigFloat(proof.witness->box.mid().approx());
+      const BigFloat slack = slacks(machine.problem, truth(machine, move, time_at(*path.timing, s))).at(limit);
+      EXPECT_LT(slack, error) << trial << ": " << limit;
+    }
+    if (!all_proved) continue;
+    ++count["proved"];
+    const PrecisionScope precision(oracle::kMovingBits);
+    constexpr int kTimes = 12;
+    for (int n = 0; n < kTimes; ++n) {
+      const BigFloat t(path.timing->duration_s() * operands.uniform(1e-9, 1 - 1e-9));
+      for (const auto& [limit, slack] : slacks(machine.problem, truth(machine, move, t))) {
+        EXPECT_GT(slack, -error) << trial << ": " << limit;
+      }
+    }
+  }
+  for (const auto& [what, times] : count) std::printf("%s: %d\n", what.c_str(), times);
+  EXPECT_GT(count["proved"], kTrials / 4);
+  EXPECT_GT(count["tension"], kTrials / 8);
+  EXPECT_GT(count["too fast"], kTrials / 8);
+  EXPECT_LT(count["undecided"], kTrials / 50);
+}
+
+TEST(Moving, TheFastestProvedMoveIsNearTheSlowestRefutedOne) {
+  Operands operands(31);
+  int found = 0;
+  constexpr int kMoves = 12;
+  for (int trial = 0; found < kMoves; ++trial) {
+    ASSERT_LT(trial, 10 * kMoves);
+    MovingMachine machine(operands);
+    if (machine.mass < 0.2) continue;
+    Path path = some_move(operands, 0.2);
+    const Prover prover(machine.problem, {.max_bits = 256});
+    const auto verdict = [&](double step_s) {
+      path.timing->step_s = step_s;
+      Verdict result = Verdict::kProved;
+      for (std::size_t k = 0; k < path.segments() && result == Verdict::kProved; ++k) {
+        result = prover.prove(path.segment(k)).verdict;
+      }
+      return result;
+    };
+    double slow = 8 * path.timing->step_s, fast = slow / 1024;
+    if (verdict(slow) != Verdict::kProved) continue;
+    ++found;
+    ASSERT_EQ(verdict(fast), Verdict::kRefuted);
+    while (slow > 1.001 * fast) {
+      const double middle = std::sqrt(slow * fast);
+      const Verdict at_middle = verdict(middle);
+      ASSERT_NE(at_middle, Verdict::kUndecided) << trial << " " << middle;
+      (at_middle == Verdict::kProved ? slow : fast) = middle;
+    }
+    path.timing->step_s = slow;
+    const PrecisionScope precision(oracle::kMovingBits);
+    const oracle::Move move = oracle_of(path);
+    BigFloat least(1e9);
+    constexpr int kTimes = 60;
+    for (int n = 0; n < kTimes; ++n) {
+      const BigFloat t(path.timing->duration_s() * (n + 0.5) / kTimes);
+      for (const auto& [limit, slack] : slacks(machine.problem, truth(machine, move, t))) {
+        if (limit.starts_with("tension") && slack < least) least = slack;
+      }
+    }
+    EXPECT_GT(least, -oracle::big("1e-20"));
+    EXPECT_LT(least.to_double(MPFR_RNDN), 0.2) << "of 6.48 N between the limits";
+  }
+}
+
+TEST(Moving, MachinesThatDeviateKeepTheLimitsOfProofs) {
+  Operands operands(37);
+  int proved = 0;
+  constexpr int kMoves = 16;
+  for (int trial = 0; proved < kMoves; ++trial) {
+    ASSERT_LT(trial, 30 * kMoves);
+    MovingMachine machine(operands);
+    const double anchor = operands.uniform(0, 5e-4), position = operands.uniform(0, 2e-3),
+                 turn = operands.uniform(0, 0.02);
+    TolerancesText& tolerances = machine.problem.tolerances.emplace();
+    tolerances.base_anchor_m.fill(MovingMachine::exact_text(anchor));
+    tolerances.platform_anchor_m.fill(MovingMachine::exact_text(anchor));
+    tolerances.position_m = MovingMachine::exact_text(position);
+    tolerances.orientation_rad = MovingMachine::exact_text(turn);
+    const Path path = some_move(operands, 0.1);
+    const Prover prover(machine.problem, {.max_bits = 256});
+    bool all_proved = true;
+    for (std::size_t k = 0; all_proved && k < path.segments(); ++k) {
+      all_proved = prover.prove(path.segment(k), 0, {}, ProofAim::kProve).verdict == Verdict::kProved;
+    }
+    if (!all_proved) continue;
+    ++proved;
+    const PrecisionScope precision(oracle::kMovingBits);
+    const oracle::Move commanded = oracle_of(path);
+    constexpr int kMachines = 12;
+    for (int n = 0; n < kMachines; ++n) {
+      constexpr double kNearly = 1 - 1e-9;
+      const BigFloat t(path.timing->duration_s() * operands.uniform(1e-9, kNearly));
+      MovingMachine other = machine;
+      for (auto* const anchors : {&other.problem.robot.base_anchors_m, &other.problem.robot.platform_anchors_m}) {
+        for (auto& texts : *anchors) {
+          oracle::Big3 place = oracle::big(texts);
+          const oracle::Big3 off = some_vector(operands, anchor * kNearly);
+          for (std::size_t k = 0; k < 3; ++k) {
+            place[k] += off[k];
+            texts[k] = place[k].to_decimal(80, MPFR_RNDN);
+          }
+        }
+      }
+      const oracle::Move move = displaced(commanded, some_vector(operands, position * kNearly),
+                                          some_vector(operands, 1), BigFloat(turn * kNearly * operands.uniform(-1, 1)));
+      for (const auto& [limit, slack] : slacks(other.problem, truth(other, move, t))) {
+        if (!limit.starts_with("tension")) continue;
+        EXPECT_GT(slack, -oracle::big("1e-20")) << trial << ": " << limit;
+      }
+    }
+  }
+}
+
+TEST(Moving, ATurnOfThePlatformChangesItsInertiaByNoMoreThanIsSaid) {
+  Operands operands(41);
+  for (int trial = 0; trial < 200; ++trial) {
+    MovingMachine machine(operands);
+    const Path path = some_move(operands, 0.1);
+    const Segment segment = path.segment(0);
+    const double s = operands.uniform(0, 1), turn = operands.uniform(0, 0.3);
+    const PathRates<double> at = PathRatesModel<double>(machine.problem).at(segment, s);
+    const Rates<double> rates = by_time(at, operands.uniform(0, 3), operands.uniform(-9, 9));
+    const std::vector<MovingBody<double>> bodies = make_moving_bodies<double>(machine.problem.load);
+    const Eigen::Vector3d axis(operands.uniform(-1, 1), operands.uniform(-1, 1), operands.uniform(-1, 1));
+    const Matrix3<double> turned = Eigen::AngleAxisd(turn * (1 - 1e-9), axis.normalized()).toRotationMatrix() * at.r_WP;
+    const Vector6<double> change = inertial_wrench(bodies, turned, rates) - inertial_wrench(bodies, at.r_WP, rates);
+    Vector6<Interval> said;
+    ASSERT_TRUE(run_upward([&] {
+      Moving<Interval> undisturbed;
+      for (int k = 0; k < 9; ++k) undisturbed.r_WP(k) = Interval(at.r_WP(k));
+      const auto exact = [](const Vector3<double>& v) {
+        return Vector3<Interval>(Interval(v(0)), Interval(v(1)), Interval(v(2)));
+      };
+      undisturbed.rates = {exact(rates.velocity), exact(rates.acceleration), exact(rates.angular_velocity),
+                           exact(rates.angular_acceleration)};
+      said = MovingModel<Interval>(machine.problem).change(undisturbed, Interval(turn));
+    }));
+    for (int k = 0; k < 6; ++k) {
+      const double rounding = 1e-10 * (1 + std::abs(change(k)));
+      EXPECT_LE(lower_bound(said(k)) - rounding, change(k));
+      EXPECT_GE(upper_bound(said(k)) + rounding, change(k));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace taut::testing

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Time laws, motions in time and what they do to a load: enclosures against sampled times and against quotients of
+// differences of 10^-40, at 400 bits, of poses and momenta that are written a second time.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include "certify/motion/law_range.h"
+#include "kinematics/moving_load.h"
+#include "kinematics/path_rates.h"
+#include "tests/oracle/moving.h"
+#include "tests/support/enclosing.h"
+#include "tests/support/segments.h"
+
+namespace taut::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A law over so many segments that begins and ends without a rest of its own.
+TimeLaw some_law(std::mt19937_64& random, std::size_t segments, bool stands_still = false) {
+  std::uniform_int_distribution<int> jump(1, 1000);
+  constexpr double kUnit = 0x1p-12;
+  TimeLaw law{0.015625 * jump(random), {}};
+  const double first = kUnit * jump(random);
+  law.controls = {-first, 0, first};
+  while (law.controls.back() < static_cast<double>(segments)) {
+    const bool rests = stands_still && random() % 4 == 0;
+    for (int k = rests ? 5 : 1; k > 0; --k) law.controls.push_back(law.controls.back());
+    law.controls.back() += kUnit * jump(random);
+  }
+  while (law.controls.back() >= static_cast<double>(segments)) law.controls.pop_back();
+  const auto end = static_cast<double>(segments);
+  const double last = end - law.controls.back();
+  law.controls.insert(law.controls.end(), {end, end + last});
+  return law;
+}
+
+TEST(TimeLaw, RunsFromEndToEndAndNeverBack) {
+  std::mt19937_64 random(11);
+  for (int trial = 0; trial < 200; ++trial) {
+    const std::size_t segments = 1 + random() % 5;
+    const TimeLaw law = some_law(random, segments, trial % 2 == 0);
+    ASSERT_EQ(complaint(law, segments), "");
+    EXPECT_EQ(at_time(law, 0).s, 0);
+    EXPECT_EQ(at_time(law, law.duration_s()).s, segments);
+    LawPoint before = at_time(law, 0);
+    constexpr int kTimes = 300;
+    for (int k = 1; k <= kTimes; ++k) {
+      const LawPoint now = at_time(law, law.duration_s() * k / kTimes);
+      EXPECT_GE(now.s, before.s - 1e-12);
+      EXPECT_GE(now.rate, -1e-12);
+      before = now;
+    }
+    EXPECT_NE(complaint(law, segments + 1), "");
+  }
+}
+
+TEST(TimeLaw, ThatIsNoneIsNamed) {
+  const TimeLaw good{0.5, {-1, 0, 1, 2, 3}};  // (1 + 8 + 3) / 6 = 2
+  EXPECT_EQ(complaint(good, 2), "");
+  const auto with = [&](auto edit) {
+    TimeLaw law = good;
+    edit(law);
+    return complaint(law, 2);
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(with([](TimeLaw& x) { x.step_s = 0; }), HasSubstr("got a step of 0 s, expected a finite time above 0"));
+  EXPECT_THAT(with([](TimeLaw& x) { x.step_s = kNan; }), HasSubstr("got a step of nan s"));
+  EXPECT_THAT(with([](TimeLaw& x) { x.controls.resize(3); }), HasSubstr("got 3 control values, expected 4 or more"));
+  EXPECT_THAT(with([](TimeLaw& x) { x.controls[2] = kNan; }), HasSubstr("control value 2: got nan"));
+  EXPECT_THAT(with([](TimeLaw& x) { x.controls[3] = 0.5; }), HasSubstr("control value 3: got 0.5, below the 1 before"));
+  EXPECT_THAT(with([](TimeLaw& x) { x.controls[1] = -0x1p-52; }), HasSubstr("the first three control values"));
+  EXPECT_THAT(with([](TimeLaw& x) { x.controls[4] += 0x1p-50; }), HasSubstr("expected such with a + 4 b + c = 12"));
+}
+
+TEST(TimeLaw, RestsWhereItHasTo) {
+  const auto at = [](double x) { return Waypoint{{x, 0, 0, 0, 0, 0}, std::vector<int>(6, 0)}; };
+  const auto of = [](std::vector<Waypoint> points, Interpolation law, std::vector<double> controls) {
+    Path path{std::move(points), law};
+    path.timing = TimeLaw{0.5, std::move(controls)};
+    return complaint(path);
+  };
+  const std::vector<Waypoint> corner = {at(0), at(1), at(0.5)};
+  constexpr Interpolation kStraight = Interpolation::kStraight, kSpline = Interpolation::kCubicBSpline;
+  EXPECT_EQ(of(corner, kStraight, {0, 0, 0, 0.5, 1, 1, 1, 1.5, 2, 2, 2}), "");
+  EXPECT_EQ(of(corner, kStraight, {0, 0, 0, 0.5, 1, 1, 1, 1, 1, 1.5, 2, 2, 2}), "");  // stands still there
+  EXPECT_THAT(of(corner, kStraight, {0, 0, 0, 0.5, 1, 1.5, 2, 2, 2}), HasSubstr("three control values of 1, where"));
+  EXPECT_THAT(of(corner, kStraight, {-0.25, 0, 0.25, 0.75, 1.25, 1.75, 2, 2.25}),
+              HasSubstr("three control values of 0"));
+  EXPECT_THAT(of(corner, kStraight, {0, 0, 0, 1, 1, 1, 1.5, 2, 2.5}), HasSubstr("three control values of 2"));
+  EXPECT_THAT(of(corner, kStraight, {0, 0, 0, 1, 1, 1, 2, 3, 3, 3}), HasSubstr("expected such with a + 4 b + c = 12"));
+  const std::vector<double> moving = {-0.25, 0, 0.25, 0.75, 1, 1.25};
+  const std::vector<Waypoint> still = {at(0), at(0), at(0), at(1), at(1), at(1)};
+  EXPECT_EQ(of({still.begin(), still.end()}, kSpline, {-1, 0, 1, 2, 3, 4}), "");
+  EXPECT_THAT(of({at(0), at(0), at(1), at(1)}, kSpline, moving), HasSubstr("three control values of 0"));
+  EXPECT_EQ(of({at(0), at(0), at(1), at(1)}, kSpline, {0, 0, 0, 0.5, 1, 1, 1}), "");
+  EXPECT_THAT(of({at(0), at(1)}, Interpolation::kGeodesic, moving), HasSubstr("straight segments or a spline"));
+}
+
+template <class Scalar>
+class InTime : public ::testing::Test {};
+using Scalars = ::testing::Types<Fast, Mp128>;
+TYPED_TEST_SUITE(InTime, Scalars);
+
+TYPED_TEST(InTime, LawsAreEnclosedWhereverTheyAre) {
+  using I = typename TypeParam::I;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> share(0, 1);
+  double widest = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const std::size_t segments = 1 + random() % 3;
+    const TimeLaw law = some_law(random, segments, trial % 2 == 0);
+    const double t1 = share(random) * law.duration_s(), t2 = t1 + share(random) * 0.1 * (law.duration_s() - t1);
+    LawRange<I> range;
+    EXPECT_TRUE(TypeParam::run([&] { range = law_range(law, I(at_time(law, t1).s, at_time(law, t2).s)); }));
+    const auto is_in = [](const I& x, double value) {
+      const double slack = 1e-12 * (1 + std::abs(value));  // of the sample
+      return lower_bound(x) <= value + slack && value - slack <= upper_bound(x);
+    };
+    double least = 1e300, greatest = -1e300;
+    constexpr int kTimes = 200;
+    for (int k = 0; k <= kTimes; ++k) {
+      const LawPoint now = at_time(law, t1 + (t2 - t1) * k / kTimes);
+      EXPECT_TRUE(is_in(range.rate, now.rate));
+      EXPECT_TRUE(is_in(range.acceleration, now.acceleration));
+      least = std::min(least, now.acceleration);
+      greatest = std::max(greatest, now.acceleration);
+    }
+    const double scale = 1 / (law.step_s * law.step_s);
+    widest = std::max(widest, (upper_bound(range.acceleration) - lower_bound(range.acceleration)) / scale -
+                                  (greatest - least) / scale);
+  }
+  EXPECT_LT(widest, 0.01);  // not much more than what is sampled
+}
+
+/// A few points that have mass.
+struct Cloud {
+  std::vector<std::array<double, 3>> points;
+  std::vector<double> masses;
+
+  [[nodiscard]] double mass() const { return std::accumulate(masses.begin(), masses.end(), 0.0); }
+};
+/// Of four points whose mass is a power of two, so that all sums here are exact.
+Cloud some_cloud(Operands& operands) {
+  Cloud cloud;
+  for (int k = 0; k < 4; ++k) {
+    cloud.masses.push_back(2);
+    cloud.points.push_back({operands.pick(64) / 256.0, operands.pick(64) / 256.0, operands.pick(64) / 256.0});
+  }
+  return cloud;
+}
+template <class I>
+MovingBody<I> body_of(const Cloud& cloud, const Vector3<I>& load_point) {
+  Eigen::Vector3d c = Eigen::Vector3d::Zero();
+  const auto point = [&](std::size_t n) { return Eigen::Vector3d(cloud.points[n].data()); };
+  for (std::size_t n = 0; n < cloud.points.size(); ++n) c += cloud.masses[n] * point(n) / cloud.mass();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (std::size_t n = 0; n < cloud.points.size(); ++n) {
+    const Eigen::Vector3d r = point(n) - c;
+    inertia += cloud.masses[n] * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+  }
+  MovingBody<I> body;
+  body.mass = I(cloud.mass());
+  for (int k = 0; k < 3; ++k) {
+    body.p_PC(k) = I(c(k));
+    body.p_MC(k) = I(c(k)) - load_point(k);
+    for (int l = 0; l < 3; ++l) body.inertia(k, l) = I(inertia(k, l));
+  }
+  return body;
+}
+
+TYPED_TEST(InTime, LoadsAndWinchesMoveAsDifferencesSay) {
+  using I = typename TypeParam::I;
+  const std::vector<Space> spaces = {slice_space(), sphere_space(), free_space(robot2_sphere()), curved_space()};
+  Operands operands(17);
+  int enclosed = 0;
+  constexpr int kTrials = 400;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Space& space = spaces[static_cast<std::size_t>(trial) % spaces.size()];
+    const RandomSegment ends = random_segment(space, operands);
+    const double s = operands.uniform(0, 1), rate = operands.uniform(0, 2), acceleration = operands.uniform(-2, 2);
+    const double radius = operands.pick(2) == 0 ? 0 : std::min({0.01, s, 1 - s});
+    const Cloud cloud = some_cloud(operands);
+    const Segment segment = Segment::straight(ends.a, ends.b);
+
+    Vector6<I> wrench;
+    WinchRates<I> winches;
+    const bool is_sound = TypeParam::run([&] {
+      const Model<I> model = make_model_without_ellipsoid<I>(space.problem);
+      const PathRates<I> path = PathRatesModel<I>(space.problem).at(segment, I(s - radius, s + radius));
+      const Rates<I> rates = by_time(path, I(rate), I(acceleration));
+      wrench = inertial_wrench<I>({body_of<I>(cloud, model.p_PM)}, path.r_WP, rates);
+      winches = winch_rates(model, path.p, path.r_WP, rates);
+    });
+    if (!is_sound) continue;
+    ++enclosed;
+
+    const PrecisionScope precision(oracle::kMovingBits);
+    const oracle::Move move([&](const BigFloat& tau) {
+      const BigFloat place = BigFloat(s) + tau * (BigFloat(rate) + BigFloat(acceleration) * tau / BigFloat(2.0));
+      return space.pose(parameters_at(ends.a, ends.b, place));
+    });
+    std::vector<oracle::Particle> particles;
+    for (std::size_t n = 0; n < cloud.points.size(); ++n) {
+      const auto& [x, y, z] = cloud.points[n];
+      particles.push_back({{BigFloat(x), BigFloat(y), BigFloat(z)}, BigFloat(cloud.masses[n])});
+    }
+    const BigFloat now(0.0);
+    const oracle::Big6 sum = move.inertia(particles, oracle::big(space.problem.load.point_m), now);
+    const BigFloat error = oracle::big("1e-30");
+    for (int k = 0; k < 6; ++k) EXPECT_TRUE(holds(wrench(k), sum[static_cast<std::size_t>(k)], error)) << k;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const auto [speed, change] = move.winch(oracle::big(space.problem.robot.base_anchors_m[i]),
+                                              oracle::big(space.problem.robot.platform_anchors_m[i]), now);
+      EXPECT_TRUE(holds(winches.speed[i], speed, error));
+      EXPECT_TRUE(holds(winches.acceleration[i], change, error));
+    }
+    if (radius == 0) {
+      const BigFloat width = upper_end(wrench(0)) - lower_end(wrench(0));
+      EXPECT_LT(width.to_double(MPFR_RNDN), 1e-9);
+    }
+  }
+  EXPECT_GT(enclosed, kTrials * 9 / 10);
+}
+
+}  // namespace
+}  // namespace taut::testing
