@@ -78,7 +78,7 @@ TEST(Moving, ProofsAndRefutationsAgreeWithNewtonAndEuler) {
   Operands operands(29);
   std::map<std::string, int> count;
   const BigFloat error = oracle::big("1e-20");
-  constexpr int kTrials = 240;
+  constexpr int kTrials = 120;
   for (int trial = 0; trial < kTrials; ++trial) {
     MovingMachine machine(operands);
     const bool is_limited = trial % 2 == 0;  // else by tensions alone
@@ -135,7 +135,7 @@ TEST(Moving, ProofsAndRefutationsAgreeWithNewtonAndEuler) {
 TEST(Moving, TheFastestProvedMoveIsNearTheSlowestRefutedOne) {
   Operands operands(31);
   int found = 0;
-  constexpr int kMoves = 12;
+  constexpr int kMoves = 8;
   for (int trial = 0; found < kMoves; ++trial) {
     ASSERT_LT(trial, 10 * kMoves);
     MovingMachine machine(operands);
@@ -179,7 +179,7 @@ TEST(Moving, TheFastestProvedMoveIsNearTheSlowestRefutedOne) {
 TEST(Moving, MachinesThatDeviateKeepTheLimitsOfProofs) {
   Operands operands(37);
   int proved = 0;
-  constexpr int kMoves = 16;
+  constexpr int kMoves = 8;
   for (int trial = 0; proved < kMoves; ++trial) {
     ASSERT_LT(trial, 30 * kMoves);
     MovingMachine machine(operands);
