@@ -4,10 +4,10 @@
 // By the place s, with x = ṡ² and u = s̈, every limit is a set of rows a u + b x <= c, c >= 0: speeds and accelerations
 // are linear in (u, x), and so is the inertia of the load, hence every tension; norms become polygons. As x' = 2 u, the
 // fastest law is found by reachability (TOPP-RA, H. Pham and Q.-C. Pham, IEEE T-RO 2018): backwards over a grid of s,
-// the largest x from which the next one's is reached; then forwards, always as fast as that allows. Standing still obeys
-// all rows, since the path is feasible: neither pass fails. That law's acceleration jumps. Its mean over a moving window
-// of time is smooth, and becomes the control values of a TimeLaw. Where samples of that break a limit, the rows are
-// tightened there, and all is done again; in the end the whole is slowed down as far as samples need it.
+// the largest x from which the next one's is reached; then forwards, always as fast as that allows. Standing still
+// obeys all rows, since the path is feasible: neither pass fails. That law's acceleration jumps. Its mean over a moving
+// window of time is smooth, and becomes the control values of a TimeLaw. Where samples of that break a limit, the rows
+// are tightened there, and all is done again; in the end the whole is slowed down as far as samples need it.
 //
 // Floating point: a law is proposed here, and proves nothing.
 #pragma once
@@ -37,8 +37,8 @@ struct TimedMove {
   double fastest_s = 0;
 };
 
-/// How much of its limits a move uses at a place: the largest quotient of a quantity and its limit; of a tension, of what
-/// inertia takes and what there is for it.
+/// How much of its limits a move uses at a place: the largest quotient of a quantity and its limit; of a tension, of
+/// what inertia takes and what there is for it.
 [[nodiscard]] double usage(const TimedPathProblem& problem, const PoseSampler& sampler, const PathRates<double>& path,
                            double rate, double acceleration);
 

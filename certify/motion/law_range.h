@@ -25,7 +25,8 @@ LawRange<I> over_part(const Polynomial<I>& x, double from, double to) {
   return {x.slope(middle) + acceleration * (u - middle), acceleration};
 }
 
-/// A k in [0, n] for which is_before(k) holds, or 0; the greatest one where none of them holds behind one that does not.
+/// A k in [0, n] for which is_before(k) holds, or 0; the greatest one where none of them holds behind one that does
+/// not.
 template <class F>
 std::size_t last_before(std::size_t n, F is_before) {
   std::size_t from = 0;

@@ -47,9 +47,9 @@ struct Moving {
   std::vector<RateMargin> margins;  ///< of each stated limit
 };
 
-/// Asks of a path's law all that is said above: four control values or more, a step above 0, and that the move begins and
-/// ends at rest and rests at every corner. Three control values are equal where it rests, so that σ' = σ'' = 0 wherever σ
-/// is that number, or, at the ends of a spline, three control points are. @pre path.timing @throws Rejected
+/// Asks of a path's law all that is said above: four control values or more, a step above 0, and that the move begins
+/// and ends at rest and rests at every corner. Three control values are equal where it rests, so that σ' = σ'' = 0
+/// wherever σ is that number, or, at the ends of a spline, three control points are. @pre path.timing @throws Rejected
 void require_time_law(const Problem& problem, const Path& path);
 
 /// Over a box of segment k, at every time at which the move is there. @throws Undefined where that is not proved.
