@@ -73,9 +73,8 @@ struct MarginLoss {
 
 /// What acts beside the items and the ellipsoid's spread. In a move, inertia belongs to it.
 struct WrenchBeside {
-  Vector6<Ball> wrench;  ///< of the machine as stated
-  Vector6<Ball>
-      change_by_turn;  ///< by how much more than the stated tolerance it may differ, over the pose's turn <= 1
+  Vector6<Ball> wrench;          ///< of the machine as stated
+  Vector6<Ball> change_by_turn;  ///< how much more than by the tolerance it may differ, over the pose's turn <= 1
 };
 
 /// @param parts    n above: more are tighter

@@ -207,13 +207,14 @@ void require_time_law(const Problem& problem, const Path& path) {
   const PiecewiseLaw law(*path.timing);
   const std::size_t end = path.segments();
   require(law.at_knot(0) == 0 && law.at_knot(law.pieces()) == mpq_class(end), "a law in time of another path");
-  const bool is_spline = path.law == Law::kCubicBSpline;
-  for (std::size_t k = 0; k <= end; ++k) {
-    const bool is_end = k == 0 || k == end;
-    if (is_spline && !is_end) continue;
-    if (std::ranges::count(c, static_cast<double>(k)) >= 3) continue;
-    const auto* const points = path.waypoints.data() + (k == 0 ? 0 : path.waypoints.size() - 3);
-    require(is_spline && points[0] == points[1] && points[1] == points[2], "a move that does not rest where it has to");
+  const auto rests = [&](std::size_t place) { return std::ranges::count(c, static_cast<double>(place)) >= 3; };
+  constexpr const char* kNoRest = "a move that does not rest where it has to";
+  if (path.law == Law::kCubicBSpline) {
+    const auto is_still = [](const auto& points) { return points[0] == points[1] && points[1] == points[2]; };
+    require(rests(0) || is_still(std::span(path.waypoints).first<3>()), kNoRest);
+    require(rests(end) || is_still(std::span(path.waypoints).last<3>()), kNoRest);
+  } else {
+    for (std::size_t k = 0; k <= end; ++k) require(rests(k), kNoRest);
   }
 }
 

@@ -183,13 +183,8 @@ TEST(Moving, MachinesThatDeviateKeepTheLimitsOfProofs) {
   for (int trial = 0; proved < kMoves; ++trial) {
     ASSERT_LT(trial, 30 * kMoves);
     MovingMachine machine(operands);
-    const double anchor = operands.uniform(0, 5e-4), position = operands.uniform(0, 2e-3),
-                 turn = operands.uniform(0, 0.02);
-    TolerancesText& tolerances = machine.problem.tolerances.emplace();
-    tolerances.base_anchor_m.fill(MovingMachine::exact_text(anchor));
-    tolerances.platform_anchor_m.fill(MovingMachine::exact_text(anchor));
-    tolerances.position_m = MovingMachine::exact_text(position);
-    tolerances.orientation_rad = MovingMachine::exact_text(turn);
+    const SomeTolerances tolerances(operands, 0.02);
+    machine.problem.tolerances = tolerances.text();
     const Path path = some_move(operands, 0.1);
     const Prover prover(machine.problem, {.max_bits = 256});
     bool all_proved = true;
@@ -202,21 +197,10 @@ TEST(Moving, MachinesThatDeviateKeepTheLimitsOfProofs) {
     const oracle::Move commanded = oracle_of(path);
     constexpr int kMachines = 12;
     for (int n = 0; n < kMachines; ++n) {
-      constexpr double kNearly = 1 - 1e-9;
-      const BigFloat t(path.timing->duration_s() * operands.uniform(1e-9, kNearly));
+      const BigFloat t(path.timing->duration_s() * operands.uniform(1e-9, 1 - 1e-9));
       MovingMachine other = machine;
-      for (auto* const anchors : {&other.problem.robot.base_anchors_m, &other.problem.robot.platform_anchors_m}) {
-        for (auto& texts : *anchors) {
-          oracle::Big3 place = oracle::big(texts);
-          const oracle::Big3 off = some_vector(operands, anchor * kNearly);
-          for (std::size_t k = 0; k < 3; ++k) {
-            place[k] += off[k];
-            texts[k] = place[k].to_decimal(80, MPFR_RNDN);
-          }
-        }
-      }
-      const oracle::Move move = displaced(commanded, some_vector(operands, position * kNearly),
-                                          some_vector(operands, 1), BigFloat(turn * kNearly * operands.uniform(-1, 1)));
+      other.problem = tolerances.some_machine(machine.problem, operands);
+      const oracle::Move move = tolerances.some_move(commanded, operands);
       for (const auto& [limit, slack] : slacks(other.problem, truth(other, move, t))) {
         if (!limit.starts_with("tension")) continue;
         EXPECT_GT(slack, -oracle::big("1e-20")) << trial << ": " << limit;

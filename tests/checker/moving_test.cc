@@ -161,22 +161,26 @@ BigFloat least_slack(const taut::Problem& problem, const testing::MovingMachine&
   return least;
 }
 
+/// What is proved of tensions on the box; nothing where the box is too wide.
+std::optional<Ball> proved_bound(const RandomMove& random) {
+  Problem problem = to_kernel_in_time(random.machine);
+  problem.time.emplace();
+  const WorkingPrecision precision(random.box.bits);
+  try {
+    return prove_box(Machine(problem), problem, to_kernel(random.path), random.k, random.box).tension;
+  } catch (const Undefined&) {
+    return std::nullopt;
+  }
+}
+
 TEST(KernelMoving, BoxesAreProvedWithInertia) {
   const PrecisionScope oracle(oracle::kMovingBits);
   Operands operands(5);
   int proved = 0, tight = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const RandomMove random(operands, 9);
-    Problem problem = to_kernel_in_time(random.machine);
-    problem.time.emplace();
-    const Path path = to_kernel(random.path);
-    const WorkingPrecision precision(random.box.bits);
-    Bounds bounds;
-    try {
-      bounds = prove_box(Machine(problem), problem, path, random.k, random.box);
-    } catch (const Undefined&) {
-      continue;
-    }
+    const std::optional<Ball> bound = proved_bound(random);
+    if (!bound) continue;
     ++proved;
     const oracle::Move move = testing::oracle_of(random.path);
     BigFloat least(1e9);
@@ -184,8 +188,8 @@ TEST(KernelMoving, BoxesAreProvedWithInertia) {
       const BigFloat slack = least_slack(random.machine.problem, random.machine, move, random.time(u));
       if (slack < least) least = slack;
     }
-    EXPECT_LE(upper_end(bounds.tension), least + BigFloat(kError)) << trial;
-    if (upper_end(bounds.tension) > least - BigFloat(0.1) * (BigFloat(1.0) + abs(least))) ++tight;
+    EXPECT_LE(upper_end(*bound), least + BigFloat(kError)) << trial;
+    if (upper_end(*bound) > least - BigFloat(0.1) * (BigFloat(1.0) + abs(least))) ++tight;
   }
   EXPECT_GT(proved, 50);
   EXPECT_GT(tight, 45);
@@ -195,47 +199,21 @@ TEST(KernelMoving, MachinesThatDeviateKeepTheBoundsOfBoxes) {
   const PrecisionScope oracle(oracle::kMovingBits);
   Operands operands(7);
   int proved = 0;
-  constexpr double kNearly = 1 - 1e-9;
   for (int trial = 0; trial < 40; ++trial) {
     RandomMove random(operands, 9);
-    const double anchor = operands.uniform(0, 5e-4), position = operands.uniform(0, 2e-3),
-                 turn = operands.uniform(0, 0.05);
-    TolerancesText& tolerances = random.machine.problem.tolerances.emplace();
-    tolerances.base_anchor_m.fill(testing::MovingMachine::exact_text(anchor));
-    tolerances.platform_anchor_m.fill(testing::MovingMachine::exact_text(anchor));
-    tolerances.position_m = testing::MovingMachine::exact_text(position);
-    tolerances.orientation_rad = testing::MovingMachine::exact_text(turn);
-    Problem problem = to_kernel_in_time(random.machine);
-    problem.time.emplace();
+    const testing::SomeTolerances tolerances(operands, 0.05);
+    random.machine.problem.tolerances = tolerances.text();
     random.box.parts = 2;
     random.box.guesses = 4;
-    const Path path = to_kernel(random.path);
-    const WorkingPrecision precision(random.box.bits);
-    Bounds bounds;
-    try {
-      bounds = prove_box(Machine(problem), problem, path, random.k, random.box);
-    } catch (const Undefined&) {
-      continue;
-    }
+    const std::optional<Ball> bound = proved_bound(random);
+    if (!bound) continue;
     ++proved;
     const oracle::Move commanded = testing::oracle_of(random.path);
     for (int n = 0; n < 6; ++n) {
-      taut::Problem other = random.machine.problem;
-      for (auto* const anchors : {&other.robot.base_anchors_m, &other.robot.platform_anchors_m}) {
-        for (auto& texts : *anchors) {
-          oracle::Big3 at = oracle::big(texts);
-          const oracle::Big3 off = testing::some_vector(operands, anchor * kNearly);
-          for (std::size_t k = 0; k < 3; ++k) {
-            at[k] += off[k];
-            texts[k] = at[k].to_decimal(80, MPFR_RNDN);
-          }
-        }
-      }
-      const oracle::Move move =
-          testing::displaced(commanded, testing::some_vector(operands, position * kNearly),
-                             testing::some_vector(operands, 1), BigFloat(turn * kNearly * operands.uniform(-1, 1)));
+      const taut::Problem other = tolerances.some_machine(random.machine.problem, operands);
+      const oracle::Move move = tolerances.some_move(commanded, operands);
       const BigFloat slack = least_slack(other, random.machine, move, random.time(operands.uniform(-1, 1)));
-      EXPECT_LE(upper_end(bounds.tension), slack + BigFloat(kError)) << trial;
+      EXPECT_LE(upper_end(*bound), slack + BigFloat(kError)) << trial;
     }
   }
   EXPECT_GT(proved, 30);

@@ -155,4 +155,45 @@ inline oracle::Big3 some_vector(Operands& operands, double length) {
   return v;
 }
 
+/// Tolerances of anchors and of tracking, and machines within them.
+class SomeTolerances {
+ public:
+  SomeTolerances(Operands& operands, double most_turn)
+      : anchor_(operands.uniform(0, 5e-4)),
+        position_(operands.uniform(0, 2e-3)),
+        turn_(operands.uniform(0, most_turn)) {}
+
+  [[nodiscard]] TolerancesText text() const {
+    TolerancesText text;
+    text.base_anchor_m.fill(MovingMachine::exact_text(anchor_));
+    text.platform_anchor_m.fill(MovingMachine::exact_text(anchor_));
+    text.position_m = MovingMachine::exact_text(position_);
+    text.orientation_rad = MovingMachine::exact_text(turn_);
+    return text;
+  }
+  /// With anchors that deviate by nearly as much as they may.
+  [[nodiscard]] Problem some_machine(Problem problem, Operands& operands) const {
+    for (auto* const anchors : {&problem.robot.base_anchors_m, &problem.robot.platform_anchors_m}) {
+      for (auto& texts : *anchors) {
+        oracle::Big3 place = oracle::big(texts);
+        const oracle::Big3 off = some_vector(operands, anchor_ * kNearly);
+        for (std::size_t k = 0; k < 3; ++k) {
+          place[k] += off[k];
+          texts[k] = place[k].to_decimal(80, MPFR_RNDN);
+        }
+      }
+    }
+    return problem;
+  }
+  /// Tracked with an error.
+  [[nodiscard]] oracle::Move some_move(const oracle::Move& commanded, Operands& operands) const {
+    const oracle::Big3 by = some_vector(operands, position_ * kNearly), axis = some_vector(operands, 1);
+    return displaced(commanded, by, axis, BigFloat(turn_ * kNearly * operands.uniform(-1, 1)));
+  }
+
+ private:
+  static constexpr double kNearly = 1 - 1e-9;
+  double anchor_, position_, turn_;
+};
+
 }  // namespace taut::testing
