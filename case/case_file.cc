@@ -25,6 +25,7 @@
 #include "case/decoration_fields.h"
 #include "case/fields.h"
 #include "case/load.h"
+#include "case/time.h"
 #include "case/waypoint.h"
 #include "problem/decimal.h"
 #include "problem/expression.h"
@@ -456,7 +457,8 @@ std::vector<Bound> read_bounds(const Map& map, const Units& units) {
                                                        {"length_margin", Dimension::kLength},
                                                        {"clearance_margin", Dimension::kLength},
                                                        {"length", Dimension::kLength},
-                                                       {"angle", Dimension::kAngle}};
+                                                       {"angle", Dimension::kAngle},
+                                                       {"duration", Dimension::kTime}};
   std::vector<Bound> bounds;
   for (const char* quantity : kBoundQuantities) {
     const auto field = map.find(quantity);
@@ -531,7 +533,7 @@ DocumentFields read_document_fields(const Map& map) {
 Case read_case(const Field& root, const std::filesystem::path& folder, const std::function<void(const Space&)>& typed) {
   const Map map =
       root.map({"taut", "name", "title", "machine", "site", "document", "prepared_by", "units", "robot", "load",
-                "tolerances", "bodies", "space", "query", "planner", "audit", "decoration", "expect"});
+                "tolerances", "bodies", "space", "query", "planner", "time", "audit", "decoration", "expect"});
   if (const Field version = map.at("taut"); version.text("1, the case format") != "1") {
     version.fail("1, the case format that this version reads");
   }
@@ -541,7 +543,8 @@ Case read_case(const Field& root, const std::filesystem::path& folder, const std
   Case result;
   result.problem.name = read_name(map.at("name"));
   result.problem.robot = read_robot(map.at("robot"), units);
-  result.problem.load = read_load(map.at("load"), units, result.warnings);
+  const auto time = map.find("time");
+  result.problem.load = read_load(map.at("load"), units, time.has_value(), result.warnings);
   if (is_around_items(map.at("load"))) result.items_in_ellipsoid = result.problem.load;
   result.document_fields = read_document_fields(map);
   if (const auto field = map.find("decoration")) result.decoration = read_decoration(*field, units, folder);
@@ -564,6 +567,12 @@ Case read_case(const Field& root, const std::filesystem::path& folder, const std
     (void)map.at("space");  // says that there is none
   }
   if (const auto planner = map.find("planner")) result.planner = read_planner(*planner, units);
+  if (time) {
+    check_load_in_time(*time, result.problem.load, is_around_items(map.at("load")), result.warnings);
+    const CaseTime in_time = read_time(*time, units);
+    result.problem.time = in_time.limits;
+    result.move = in_time.move;
+  }
   if (const auto audit = map.find("audit")) result.audit = read_audited_path(*audit);
   if (const auto expect = map.find("expect")) read_expectation(*expect, units, result);
   return result;

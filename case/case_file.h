@@ -51,15 +51,21 @@ struct Bound {
   double upper = std::numeric_limits<double>::infinity();
 };
 /// The proved margins [N, m, 1, m]; the distance that the platform's origin travels [m] and the angle that the platform
-/// turns by [rad]; the planner's cost; counts.
-inline constexpr std::array<const char*, 11> kBoundQuantities = {
+/// turns by [rad]; the planner's cost; counts; of a move the time that it takes [s].
+inline constexpr std::array<const char*, 12> kBoundQuantities = {
     "tension_margin", "length_margin", "wrench_scale", "clearance_margin", "length",   "angle",
-    "cost",           "segments",      "boxes",        "charts",           "stretches"};
+    "cost",           "segments",      "boxes",        "charts",           "stretches", "duration"};
 
 /// The path of a case that is to be audited instead of planned.
 struct AuditedPath {
   std::string file;           ///< relative to the case file
   std::string interpolation;  ///< empty: as the file suggests
+};
+
+/// How a move is planned; numbers for the planner, of which nothing is proved. What is proved is in Problem::time.
+struct MoveOptions {
+  double jerk_m_s3 = std::numeric_limits<double>::infinity();  ///< of the load point, at most; above 0
+  double rate_Hz = 100;                                        ///< rows a second of tables, above 0
 };
 
 /// A case file's content. The space is coordinate_space() if the file has none; a case without a query is for audits.
@@ -69,6 +75,7 @@ struct Case {
   Expectation expect = Expectation::kNone;
   std::vector<Bound> bounds;  ///< expected besides the verdict
   std::optional<AuditedPath> audit;
+  MoveOptions move;  ///< of problem.time
   /// The items as the case states them, where problem.load is an ellipsoid around them.
   std::optional<LoadText> items_in_ellipsoid;
   /// How problem.bodies was made, if the case states bodies.

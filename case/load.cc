@@ -165,8 +165,8 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kKinds = {
 /// Reads the items of a load, one after the other.
 class ItemReader {
  public:
-  ItemReader(const Units& units, LoadText& load, std::vector<std::string>& warnings)
-      : units_(units), load_(load), warnings_(warnings) {}
+  ItemReader(const Units& units, bool in_time, LoadText& load, std::vector<std::string>& warnings)
+      : units_(units), in_time_(in_time), load_(load), warnings_(warnings) {}
 
   void read(const Field& list);
   /// That of an item with an ellipsoid, if there is one.
@@ -187,12 +187,14 @@ class ItemReader {
   [[nodiscard]] Axes read_axes(const Map& item) const;
   [[nodiscard]] RationalVector read_at(const Map& item) const;
   [[nodiscard]] Rational read_at_tolerance(const Map& item) const;
+  [[nodiscard]] RationalVector read_inertia(const Field& field) const;
   [[nodiscard]] DiscOfVectors horizontal(RationalText radius) const;
   /// What a force up to `magnitude` adds where its point is known to a tolerance only: a moment in any direction.
   void add_moment_of_tolerance(const Map& item, const VectorSet& moments_at_one_metre, Axes axes);
   void add(const Field& item, const std::string& name, decltype(LoadItem::what) what);
 
   const Units& units_;
+  const bool in_time_;
   LoadText& load_;
   std::vector<std::string>& warnings_;
   std::optional<Ellipsoid> ellipsoid_;
@@ -287,17 +289,30 @@ void ItemReader::read_mass(const Map& item) {
     lower = nominal - deviation;
     upper = nominal + deviation;
   }
-  if (const auto inertia = item.find("inertia")) {
-    for (const Field& side : inertia->map({"box"}).at("box").list(3, "the three lengths of a box")) {
-      if (read_rational(side, units_[Dimension::kLength]) <= 0) side.fail("a length above zero");
-    }
-    warnings_.push_back(
-        inertia->remark("is not used: what is proved holds for motion so slow that forces of inertia are within the "
-                        "other items, such as an acceleration"));
-  }
   const Rational at_tolerance = read_at_tolerance(item);
-  add(item.field(), name_,
-      Weight{text_of(mass, lower), text_of(mass, upper), read_at(item), text_of(item.field(), at_tolerance)});
+  Weight weight{text_of(mass, lower), text_of(mass, upper), read_at(item), text_of(item.field(), at_tolerance)};
+  if (const auto inertia = item.find("inertia")) {
+    const RationalVector box = read_inertia(*inertia);
+    if (in_time_) {
+      weight.inertia_box = box;
+    } else {
+      warnings_.push_back(
+          inertia->remark("is not used without 'time': what is proved holds for motion so slow that forces of inertia "
+                          "are within the other items, such as an acceleration"));
+    }
+  }
+  add(item.field(), name_, std::move(weight));
+}
+
+RationalVector ItemReader::read_inertia(const Field& field) const {
+  const std::vector<Field> sides = field.map({"box"}).at("box").list(3, "the three lengths of a box");
+  RationalVector box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rational side = read_rational(sides[k], units_[Dimension::kLength]);
+    if (side <= 0) sides[k].fail("a length above zero");
+    box[k] = text_of(sides[k], side);
+  }
+  return box;
 }
 
 VectorSet ItemReader::read_set(const Map& item, const Field& amount, const Unit& unit) const {
@@ -541,8 +556,8 @@ std::array<DecimalText, 6> read_mass_or_wrench(const Map& load, const Units& uni
 }
 
 /// Reads a load with items, and perhaps an ellipsoid beside them. Returns that ellipsoid.
-std::optional<Ellipsoid> read_items(const Map& map, const Field& items, const Units& units, LoadText& load,
-                                    std::vector<std::string>& warnings) {
+std::optional<Ellipsoid> read_items(const Map& map, const Field& items, const Units& units, bool in_time,
+                                    LoadText& load, std::vector<std::string>& warnings) {
   if (const auto mass = map.find("mass")) mass->complain("got a mass beside 'items', expected it as one of the items");
   if (const auto gravity = map.find("gravity")) load.gravity_m_s2 = read_gravity(*gravity);
   const auto wrench = map.find("wrench"), field = map.find("ellipsoid");
@@ -559,7 +574,7 @@ std::optional<Ellipsoid> read_items(const Map& map, const Field& items, const Un
     load.ellipsoid = ellipsoid->matrix;
     if (wrench) load.wrench = read_wrench(*wrench, units);
   }
-  ItemReader reader(units, load, warnings);
+  ItemReader reader(units, in_time, load, warnings);
   reader.read(items);
   if (around_items && reader.ellipsoid()) {
     field->complain("got 'around_items' and an item that is an ellipsoid, expected one or the other");
@@ -569,7 +584,7 @@ std::optional<Ellipsoid> read_items(const Map& map, const Field& items, const Un
 
 }  // namespace
 
-LoadText read_load(const Field& field, const Units& units, std::vector<std::string>& warnings) {
+LoadText read_load(const Field& field, const Units& units, bool in_time, std::vector<std::string>& warnings) {
   const Map map = field.map(kLoadKeys);
   LoadText load;
   load.point_m.fill("0");
@@ -579,7 +594,7 @@ LoadText read_load(const Field& field, const Units& units, std::vector<std::stri
   }
   std::optional<Ellipsoid> ellipsoid;
   if (const auto items = map.find("items")) {
-    ellipsoid = read_items(map, *items, units, load, warnings);
+    ellipsoid = read_items(map, *items, units, in_time, load, warnings);
   } else {
     load.wrench = read_mass_or_wrench(map, units);
     ellipsoid = read_ellipsoid(map.at("ellipsoid"), units);

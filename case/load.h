@@ -10,8 +10,10 @@
 
 namespace taut::case_fields {
 
-/// Reads `load`. What may not be meant as it was typed is added to `warnings`.
-[[nodiscard]] LoadText read_load(const Field& field, const Units& units, std::vector<std::string>& warnings);
+/// Reads `load`. What may not be meant as it was typed is added to `warnings`. @param in_time  whether the case has
+/// `time`: only then a weight's `inertia` is a part of the load
+[[nodiscard]] LoadText read_load(const Field& field, const Units& units, bool in_time,
+                                 std::vector<std::string>& warnings);
 
 /// Whether `load`, which read_load() has read, asks for one ellipsoid instead of its items.
 [[nodiscard]] bool is_around_items(const Field& load);

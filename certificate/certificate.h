@@ -17,9 +17,11 @@
 
 namespace taut {
 
-/// Version of the format that is written and read, and that where the problem has bodies.
+/// Version of the format that is written and read; that where the problem has bodies; and that where it has limits in
+/// time, with bodies or without.
 inline constexpr int kCertificateVersion = 4;
 inline constexpr int kCertificateVersionWithBodies = 5;
+inline constexpr int kCertificateVersionInTime = 6;
 /// The most half turns that a waypoint may state, either way.
 inline constexpr int kMostHalfTurns = 1'000'000;
 

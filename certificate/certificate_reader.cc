@@ -19,6 +19,7 @@
 #include "base/json_cursor.h"
 #include "checker/format/strict_json.h"
 #include "checker/kernel/errors.h"
+#include "kinematics/time_law.h"
 #include "problem/decimal.h"
 #include "problem/rational.h"
 
@@ -334,6 +335,13 @@ Deviation read_deviation(const JsonCursor& deviation) {
   return result;
 }
 
+std::optional<RateKind> read_rate(const JsonCursor& kind) {
+  for (const RateKind rate : kRateKinds) {
+    if (kind.text() == name(rate)) return rate;
+  }
+  return std::nullopt;
+}
+
 /// Which limit is violated; nothing for "singular".
 std::optional<MarginKind> read_kind(const JsonCursor& kind) {
   constexpr std::array kLimits = {MarginKind::kTensionMin, MarginKind::kTensionMax, MarginKind::kLengthMin,
@@ -406,13 +414,24 @@ Witness read_witness(const JsonCursor& witness, const Path& path) {
   Witness result;
   PathWitness& violation = result.violation;
   const bool is_contact = witness.at("kind").text() == "contact";
-  const std::optional<MarginKind> limit = is_contact ? std::nullopt : read_kind(witness.at("kind"));
+  const std::optional<RateKind> rate = read_rate(witness.at("kind"));
+  const std::optional<MarginKind> limit = is_contact || rate ? std::nullopt : read_kind(witness.at("kind"));
   violation.at = read_point(witness.at("at"), path);
   for (const JsonCursor& box : witness.at("motion").elements()) {
     result.motion.push_back({static_cast<std::size_t>(read_index(box.at("segment"), path.segments())), read_box(box)});
   }
   if (is_contact) {
     read_contact(witness, result);
+    return result;
+  }
+  if (rate) {
+    violation.rate = RateId{*rate};
+    if (is_of_winch(*rate)) violation.rate->cable = static_cast<int>(witness.at("cable").integer(1, kCables)) - 1;
+    const std::vector<JsonCursor> value = witness.at("value").elements(2);
+    violation.value_lower = decimal(value[0]);
+    violation.value_upper = decimal(value[1]);
+    violation.limit = witness.at("limit").text();
+    result.at_box = read_proof_at(witness.at("proof"), violation.at);
     return result;
   }
   if (!limit) {
@@ -548,6 +567,11 @@ Path read_path(const json& path) {
   if (const JsonCursor times = whole.at("times"); !times.is_null()) {
     result.times = times_from_json(times, result.waypoints.size());
   }
+  if (whole.contains("timing")) {
+    const JsonCursor timing = whole.at("timing");
+    result.timing = TimeLaw{binary64(timing.at("step_s")), binary64s(timing.at("controls"))};
+    if (const std::string text = complaint(result); !text.empty()) timing.fail("the law of a move along it: " + text);
+  }
   return result;
 }
 
@@ -556,9 +580,10 @@ Certificate read_certificate(const json& certificate) {
   const auto member = [&](const char* key) -> JsonCursor { return {whole.at(key).value(), key}; };
   if (member("format").value() != "taut-certificate") member("format").fail("\"taut-certificate\"");
   const JsonCursor version = member("version");
-  if (version.value() != kCertificateVersion && version.value() != kCertificateVersionWithBodies) {
-    version.fail(fmt::format("{} or {}: only the taut that made it can make its report, or one of that time",
-                             kCertificateVersion, kCertificateVersionWithBodies));
+  if (version.value() != kCertificateVersion && version.value() != kCertificateVersionWithBodies &&
+      version.value() != kCertificateVersionInTime) {
+    version.fail(fmt::format("{}, {} or {}: only the taut that made it can make its report, or one of that time",
+                             kCertificateVersion, kCertificateVersionWithBodies, kCertificateVersionInTime));
   }
   Certificate result;
   result.generator = read_generator(member("generator"));

@@ -41,17 +41,19 @@ bool has_meshes(const json& problem) {
   return std::ranges::any_of(bodies["platform"], is_mesh) || std::ranges::any_of(bodies["obstacles"], is_mesh);
 }
 
-std::string claim_of(Verdict verdict, const json& problem,
+std::string claim_of(Verdict verdict, const json& problem, bool is_move,
                      const std::optional<std::array<bool, kPairClasses>>& checked) {
   if (verdict == Verdict::kUndecided) return checker::kUndecidedClaim;
-  const bool is_proved = verdict == Verdict::kProved;
-  std::string claim = is_proved ? checker::kProvedClaim : checker::kRefutedClaim;
-  if (problem["load"].contains("items")) claim += checker::kItemsClause;
-  if (checked) claim += checker::bodies_clause(is_proved, *checked);
-  if (has_meshes(problem)) claim += checker::kMeshClause;
-  if (checked && problem["bodies"].contains("contacts")) claim += checker::kContactZonesClause;
-  if (checked && problem["bodies"].contains("exit_cones")) claim += checker::kExitConesClause;
-  return claim;
+  checker::ClaimSubject subject;
+  subject.has_items = problem["load"].contains("items");
+  subject.has_time = problem.contains("time");
+  subject.is_move = is_move;
+  subject.may_stop = subject.has_time && problem["time"].contains("stopping_time_s");
+  subject.checks = checked;
+  subject.has_meshes = has_meshes(problem);
+  subject.has_zones = checked && problem["bodies"].contains("contacts");
+  subject.has_exit_cones = checked && problem["bodies"].contains("exit_cones");
+  return checker::claim_text(verdict == Verdict::kProved, subject);
 }
 
 json rationals(const std::vector<std::int64_t>& shares) {
@@ -216,8 +218,13 @@ json to_json(const Witness& witness) {
     result["proof"] = checker::proof_to_json(witness.at_box);
     return result;
   }
-  result["kind"] = name(violation.margin.kind);
-  result["cable"] = violation.margin.cable + 1;
+  if (violation.rate) {
+    result["kind"] = name(violation.rate->kind);
+    result["cable"] = is_of_winch(violation.rate->kind) ? json(violation.rate->cable + 1) : json();
+  } else {
+    result["kind"] = name(violation.margin.kind);
+    result["cable"] = violation.margin.cable + 1;
+  }
   result["value"] = {violation.value_lower, violation.value_upper};
   result["limit"] = violation.limit;
   result["proof"] = checker::proof_to_json(witness.at_box);
@@ -308,6 +315,7 @@ CertificateWriter::~CertificateWriter() = default;
 
 void CertificateWriter::add_waypoint(std::string_view text) { waypoints_->add(text); }
 void CertificateWriter::add_time(std::string_view decimal) { times_->add(fmt::format("\"{}\"", decimal)); }
+void CertificateWriter::set_timing(const TimeLaw& law) { timing_ = law; }
 void CertificateWriter::add_tube(double tube) { tubes_->add("\"" + hex_float(tube) + "\""); }
 void CertificateWriter::add_pose_tube(const PoseTube& tube, std::span<const InnerPose> inner_poses) {
   pose_tubes_->add(canonical(pose_tube_json(tube, inner_poses)));
@@ -372,6 +380,10 @@ void CertificateWriter::emit_path(const Write& write) const {
   } else {
     times_->replay(write);
   }
+  if (timing_) {
+    write(",\"timing\":" +
+          canonical({{"controls", hex_floats(timing_->controls)}, {"step_s", hex_float(timing_->step_s)}}));
+  }
   write(",\"tubes\":");
   tubes_->replay(write);
   write(",\"waypoints\":");
@@ -382,7 +394,7 @@ void CertificateWriter::emit_path(const Write& write) const {
 /// Writes all but the footer, the signature and the brace at the end.
 void CertificateWriter::emit(const Certificate& rest, const Write& write, const std::string& path_digest) const {
   const bool is_undecided = rest.verdict == Verdict::kUndecided;
-  write("{\"claim\":" + canonical(claim_of(rest.verdict, problem_, checked_)));
+  write("{\"claim\":" + canonical(claim_of(rest.verdict, problem_, timing_.has_value(), checked_)));
   write(",\"format\":\"taut-certificate\",\"generator\":" + canonical({{"name", "taut"}, {"version", TAUT_VERSION}}));
   write(",\"illustration\":" + canonical(rest.illustration));
   write(",\"margins\":" + canonical(rest.margins ? to_json(*rest.margins) : json::object()));
@@ -404,7 +416,9 @@ void CertificateWriter::emit(const Certificate& rest, const Write& write, const 
   }
   write(",\"undecided\":" + canonical(rest.undecided ? to_json(*rest.undecided) : json()));
   write(fmt::format(R"(,"verdict":"{}","version":{},"witness":{})", name(rest.verdict),
-                    checked_ ? kCertificateVersionWithBodies : kCertificateVersion,
+                    problem_.contains("time") ? kCertificateVersionInTime
+                    : checked_                ? kCertificateVersionWithBodies
+                                              : kCertificateVersion,
                     canonical(rest.witness ? to_json(*rest.witness) : json())));
 }
 
@@ -437,6 +451,7 @@ std::string certificate_text(const Certificate& certificate, const SigningKey* k
   CertificateWriter writer(certificate.problem, path.interpolation);
   for (const Waypoint& waypoint : path.waypoints) writer.add_waypoint(waypoint_text(path.interpolation, waypoint));
   for (const DecimalText& time : path.times) writer.add_time(time);
+  if (path.timing) writer.set_timing(*path.timing);
   for (const double tube : path.tubes) writer.add_tube(tube);
   for (std::size_t k = 0; k < path.pose_tubes.size(); ++k) {
     const bool has_inner_poses = k < path.inner_poses.size();

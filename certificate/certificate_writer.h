@@ -45,6 +45,7 @@ class CertificateWriter {
   /// @param text  as waypoint_text() has it
   void add_waypoint(std::string_view text);
   void add_time(std::string_view decimal);  ///< one a waypoint, or none at all
+  void set_timing(const TimeLaw& law);      ///< of a move
   void add_tube(double tube);
   void add_pose_tube(const PoseTube& tube, std::span<const InnerPose> inner_poses = {});
   /// @param text  as segment_text() has it
@@ -69,6 +70,7 @@ class CertificateWriter {
   nlohmann::json problem_;
   std::optional<std::array<bool, kPairClasses>> checked_;  ///< where the problem has bodies: which pairs
   Interpolation law_;
+  std::optional<TimeLaw> timing_;
   std::unique_ptr<Spool> waypoints_, times_, tubes_, pose_tubes_, segments_, stretches_, directions_;
   std::map<Direction, std::size_t> index_;  ///< of each in `directions_`
   std::size_t boxes_ = 0;

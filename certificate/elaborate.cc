@@ -16,6 +16,7 @@
 #include "checker/format/parts.h"
 #include "checker/kernel/clearance.h"
 #include "checker/kernel/deviant.h"
+#include "checker/kernel/moving.h"
 #include "checker/near_waypoints.h"
 #include "checker/witness.h"
 
@@ -51,10 +52,19 @@ checker::Law to_kernel(Interpolation law) {
   return checker::Law::kCableLengths;
 }
 
-/// A path that is this one segment.
+/// Which segment of to_kernel(segment) it is.
+std::size_t index_in_kernel(const Segment& segment) { return segment.timing == nullptr ? 0 : segment.index; }
+
+/// A path that is this one segment; of a move, with a waypoint in place of each earlier segment, as the law knows the
+/// segment by its number.
 checker::Path to_kernel(const Segment& segment, bool has_constraints) {
   checker::Path path;
   path.law = to_kernel(segment.law);
+  if (segment.timing != nullptr) {
+    const Waypoint& first = *segment.control[0];
+    path.timing = checker::TimeLaw{segment.timing->step_s, segment.timing->controls};
+    path.waypoints.assign(segment.index, {first.x, first.half_turns, first.normals});
+  }
   for (const Waypoint* control : segment.controls()) {
     path.waypoints.push_back({control->x, control->half_turns, control->normals});
   }
@@ -83,9 +93,23 @@ checker::WitnessDeviation to_kernel(const Deviation& deviation) {
   return result;
 }
 
+checker::WitnessKind to_kernel(RateKind kind) {
+  switch (kind) {
+    case RateKind::kWinchSpeed: return checker::WitnessKind::kWinchSpeed;
+    case RateKind::kWinchAcceleration: return checker::WitnessKind::kWinchAcceleration;
+    case RateKind::kWinchPower: return checker::WitnessKind::kWinchPower;
+    case RateKind::kLoadSpeed: return checker::WitnessKind::kLoadSpeed;
+    case RateKind::kLoadAcceleration: return checker::WitnessKind::kLoadAcceleration;
+    case RateKind::kLoadAngularSpeed: return checker::WitnessKind::kLoadAngularSpeed;
+    case RateKind::kLoadAngularAcceleration: break;
+  }
+  return checker::WitnessKind::kLoadAngularAcceleration;
+}
+
 checker::WitnessKind to_kernel(const PathWitness& found) {
   if (found.singular) return checker::WitnessKind::kSingular;
   if (found.contact) return checker::WitnessKind::kContact;
+  if (found.rate) return to_kernel(found.rate->kind);
   switch (found.margin.kind) {
     case MarginKind::kTensionMin: return checker::WitnessKind::kTensionMin;
     case MarginKind::kTensionMax: return checker::WitnessKind::kTensionMax;
@@ -101,15 +125,15 @@ std::vector<mpq_class> exact_shares(const std::vector<std::int64_t>& shares) {
   return result;
 }
 
-/// The statement of a violation, as of segment 0.
-checker::Witness statement(const PathWitness& found) {
+/// The statement of a violation, as of segment k.
+checker::Witness statement(const PathWitness& found, std::size_t k) {
   // On a segment, or at its beginning.
   const auto point = [](const PathPoint& at) { return at.on_segment ? to_rational(at.s) : mpq_class(0); };
   checker::Witness result;
   result.kind = to_kernel(found);
-  result.at = {0, point(found.at)};
+  result.at = {k, point(found.at)};
   if (found.singular) {
-    result.to = {0, point(found.to)};
+    result.to = {k, point(found.to)};
     return result;
   }
   if (found.contact) {
@@ -120,7 +144,7 @@ checker::Witness statement(const PathWitness& found) {
     result.inside = points.inside;
     return result;
   }
-  result.cable = static_cast<std::size_t>(found.margin.cable);
+  result.cable = static_cast<std::size_t>(found.rate ? found.rate->cable : found.margin.cable);
   if (found.deviation) result.deviation = to_kernel(*found.deviation);
   return result;
 }
@@ -198,7 +222,9 @@ class Elaborator::Search {
   static constexpr int kMostWayParts = 64;  ///< that a box asks for
 
   Search(const Elaborator& elaborator, const Segment& segment)
-      : elaborator_(elaborator), path_(to_kernel(segment, !elaborator.problem_.constraints.empty())) {}
+      : elaborator_(elaborator),
+        path_(to_kernel(segment, !elaborator.problem_.constraints.empty())),
+        k_(index_in_kernel(segment)) {}
 
   /// Tells pairs of bodies apart along these from now on.
   void use(const PairDirections& directions) {
@@ -233,8 +259,8 @@ class Elaborator::Search {
       const checker::Machine& machine = elaborator_.machine(box.bits);
       try {
         const checker::WorkingPrecision precision(box.bits);
-        (void)commanded_geometry(machine, elaborator_.problem_, path_, 0, box, ranges);
-        require_near_waypoints(machine, elaborator_.problem_, path_, 0, box);
+        (void)commanded_geometry(machine, elaborator_.problem_, path_, k_, box, ranges);
+        require_near_waypoints(machine, elaborator_.problem_, path_, k_, box);
       } catch (const checker::Undefined&) {
         return false;
       }
@@ -252,8 +278,8 @@ class Elaborator::Search {
       try {
         const checker::Machine& machine = elaborator_.machine(box.bits);
         const checker::WorkingPrecision precision(box.bits);
-        const checker::Bounds bounds = prove_box(machine, elaborator_.problem_, path_, 0, box, apart_);
-        require_near_waypoints(machine, elaborator_.problem_, path_, 0, box);
+        const checker::Bounds bounds = prove_box(machine, elaborator_.problem_, path_, k_, box, apart_);
+        require_near_waypoints(machine, elaborator_.problem_, path_, k_, box);
         KernelBox result{box, lower_bound(bounds.tension), lower_bound(bounds.length),
                          lower_bound(bounds.wrench_scale)};
         if (bounds.clearance) {
@@ -271,7 +297,7 @@ class Elaborator::Search {
   }
 
   std::optional<Witness> singular(const PathWitness& found) {
-    checker::Witness witness = statement(found);
+    checker::Witness witness = statement(found, k_);
     const bool changes_sign = at_some_precision([&](int bits) {
       if (!place_pose(witness.at.s, bits, witness.at_box) || !place_pose(witness.to.s, bits, witness.to_box)) {
         return false;
@@ -290,7 +316,7 @@ class Elaborator::Search {
   }
 
   std::optional<Witness> contact(const PathWitness& found) {
-    checker::Witness witness = statement(found);
+    checker::Witness witness = statement(found, k_);
     PathWitness deeper = found;
     const bool touches = at_some_precision([&](int bits) {
       const checker::Machine& machine = elaborator_.machine(bits);
@@ -301,7 +327,7 @@ class Elaborator::Search {
         arb_set_ui(r, 1);
         arb_mul_2exp_si(r, r, 24 - bits);
       });
-      const checker::Geometry geometry = commanded_geometry(machine, elaborator_.problem_, path_, 0, witness.at_box);
+      const checker::Geometry geometry = commanded_geometry(machine, elaborator_.problem_, path_, k_, witness.at_box);
       const Ball depth = witnessed_depth(machine, geometry, witness) - slack;
       if (!certainly_nonnegative(depth)) return false;
       constexpr int kDigits = 6;
@@ -313,7 +339,7 @@ class Elaborator::Search {
   }
 
   std::optional<Witness> violation(const PathWitness& found) {
-    checker::Witness witness = statement(found);
+    checker::Witness witness = statement(found, k_);
     Witness result{found, {}, {}, {}, {}, {}};
     const bool is_violated = at_some_precision([&](int bits) {
       const checker::Machine& machine = elaborator_.machine(bits);
@@ -344,7 +370,7 @@ class Elaborator::Search {
     const bool is_least = found.margin.kind == MarginKind::kTensionMin;
     if (problem.items.empty() || !(is_least || found.margin.kind == MarginKind::kTensionMax)) return;
     try {
-      const checker::Geometry stated = commanded_geometry(machine, problem, path_, 0, witness.at_box);
+      const checker::Geometry stated = commanded_geometry(machine, problem, path_, k_, witness.at_box);
       const checker::Geometry there =
           witness.deviation ? deviant(machine, problem, stated, *witness.deviation).geometry : stated;
       witness.loads = worst_loads(problem, there, witness.cable, is_least);
@@ -388,7 +414,7 @@ class Elaborator::Search {
   /// Finds where the motion is, if it is implied.
   bool place_motion(checker::Box& box) {
     if (!elaborator_.is_implied_) return true;
-    box.near = find_motion(elaborator_.machine(box.bits), elaborator_.problem_, path_, 0, box);
+    box.near = find_motion(elaborator_.machine(box.bits), elaborator_.problem_, path_, k_, box);
     return box.near.has_value();
   }
 
@@ -403,13 +429,21 @@ class Elaborator::Search {
   bool place_deviation(checker::Witness& witness, int bits) {
     if (!witness.deviation || !witness.deviation->cable_lengths || !witness.deviation->leads_away()) return true;
     const checker::Machine& machine = elaborator_.machine(bits);
-    const checker::Geometry stated = commanded_geometry(machine, elaborator_.problem_, path_, 0, witness.at_box);
+    const checker::Geometry stated = commanded_geometry(machine, elaborator_.problem_, path_, k_, witness.at_box);
     return find_way(machine, stated, elaborator_.approx_, *witness.deviation, bits);
   }
 
   /// Decimals that enclose what the checker will find and that violate the limit; nothing where none do.
-  static std::optional<std::pair<DecimalText, DecimalText>> violating_value(const Ball& value, const PathWitness& found,
-                                                                            int bits) {
+  [[nodiscard]] std::optional<std::pair<DecimalText, DecimalText>> violating_value(const Ball& value,
+                                                                                   const PathWitness& found,
+                                                                                   int bits) const {
+    if (found.rate) {
+      const Ball limit = checker::rate_limit(elaborator_.problem_, checker::rate_of(to_kernel(found)).value(),
+                                             static_cast<std::size_t>(found.rate->cable));
+      return decimals(with_slack_for_rounding(value, bits), [&](const mpq_class& below, const mpq_class&) {
+        return certainly_nonnegative(Ball(below) - limit);
+      });
+    }
     const bool is_lower = found.margin.kind == MarginKind::kTensionMin || found.margin.kind == MarginKind::kLengthMin;
     const mpq_class limit = exact(found.limit);
     return decimals(with_slack_for_rounding(value, bits), [&](const mpq_class& below, const mpq_class& above) {
@@ -484,6 +518,7 @@ class Elaborator::Search {
   rounding_detail::NearestGuard nearest_;  ///< so that guesses are the same whatever mode the caller has
   const Elaborator& elaborator_;
   checker::Path path_;
+  std::size_t k_;  ///< which of its segments it is about
   PairDirections directions_;
   checker::Apart apart_;
   int attempts_ = 0;

@@ -287,7 +287,9 @@ template <class I>
 struct Inertia {
   Inertia(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s)
       : at_mid(problem.moving->over(problem.model, segment, s.mid)),
-        over(problem.moving->over(problem.model, segment, s.range)) {}
+        over(problem.moving->over(problem.model, segment, s.range, Speeds::kAny)) {
+    if (problem.moving->may_stop()) slowed_at_mid = problem.moving->over(problem.model, segment, s.mid, Speeds::kAny);
+  }
 
   /// w0 − w_in.
   [[nodiscard]] static Vector6<I> rest(const Vector6<I>& w0, const Moving<I>& moving) {
@@ -296,22 +298,78 @@ struct Inertia {
     return w;
   }
 
-  /// Adds to ranges what w_in is elsewhere than at the midpoint. Slopes remain those of the wrench there.
-  void spread(const InverseBound<I>& inverse, BoxEnclosure<I>& box) const {
-    Vector6<I> elsewhere;
-    for (int k = 0; k < 6; ++k) elsewhere(k) = at_mid.wrench(k) - over.wrench(k);
-    const Forms<I, 1> densities = inverse.times(loaded_column(inverse, elsewhere));
+  /// Adds what inertia takes of tensions to what they are at rest: at the midpoint, and over the box. Slopes remain
+  /// those at rest.
+  void add(const InverseBound<I>& inverse, BoxEnclosure<I>& box) const {
+    const Forms<I, 1> at_middle = inverse.times(loaded_column(inverse, at_mid.wrench));
+    const auto over_box = slowed_at_mid ? by_law(inverse, over.by_law) : by_wrench(inverse, over.wrench);
     for (std::size_t i = 0; i < kCables; ++i) {
-      const I& density = densities[i][0].range;
-      const I tension = box.length[i].range * density;
-      box.density[i].range = box.density[i].range + density;
-      box.low[i].range = box.low[i].range + tension;
-      box.high[i].range = box.high[i].range + tension;
+      const auto take = [](SlopeForm<I>& from, const I& mid, const I& range) {
+        from.at_mid = from.at_mid - mid;
+        from.range = from.range - range;
+      };
+      const I& mid = at_middle[i][0].at_mid;
+      const I& range = over_box[i];
+      take(box.density[i], mid, range);
+      const I tension_mid = box.length[i].at_mid * mid, tension_range = box.length[i].range * range;
+      take(box.low[i], tension_mid, tension_range);
+      take(box.high[i], tension_mid, tension_range);
     }
   }
 
+  /// Whether at the midpoint, where it is slowed down, all that is limited is shown to be within its limits.
+  [[nodiscard]] bool is_slowed_well(const ProofModel<I>& problem, const InverseBound<I>& inverse,
+                                    const BoxEnclosure<I>& box) const {
+    const InertiaByLaw<I>&m = at_mid.by_law, &x = slowed_at_mid->by_law;
+    const Forms<I, 1> by_acceleration = inverse.times(loaded_column(inverse, m.a));
+    const Forms<I, 1> by_square = inverse.times(loaded_column(inverse, m.b));
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const I density = by_acceleration[i][0].at_mid * (m.acceleration - x.acceleration) +
+                        by_square[i][0].at_mid * (m.square - x.square);
+      const I tension = box.length[i].at_mid * density;
+      const bool is_tight = certainly_positive(box.low[i].at_mid + tension - problem.model.tension_lower[i]) &&
+                            certainly_positive(problem.model.tension_upper[i] - box.high[i].at_mid - tension);
+      if (!is_tight) return false;
+    }
+    return std::ranges::all_of(slowed_at_mid->margins, [](const auto& rate) { return certainly_positive(rate.value); });
+  }
+
   Moving<I> at_mid, over;
+  std::optional<Moving<I>> slowed_at_mid;  ///< where the move may be slowed down
+
+ private:
+  /// D^-1 w_in over the box.
+  [[nodiscard]] static std::array<I, kCables> by_wrench(const InverseBound<I>& inverse, const Vector6<I>& wrench) {
+    const Forms<I, 1> densities = inverse.times(loaded_column(inverse, wrench));
+    std::array<I, kCables> result;
+    for (std::size_t i = 0; i < kCables; ++i) result[i] = densities[i][0].range;
+    return result;
+  }
+  /// The same from A and B, to which D^-1 is applied before s̈ and ṡ² vary: they vary much where a move is slowed down.
+  [[nodiscard]] static std::array<I, kCables> by_law(const InverseBound<I>& inverse, const InertiaByLaw<I>& law) {
+    const std::array<I, kCables> a = by_wrench(inverse, law.a), b = by_wrench(inverse, law.b);
+    std::array<I, kCables> result;
+    for (std::size_t i = 0; i < kCables; ++i) result[i] = a[i] * law.acceleration + b[i] * law.square;
+    return result;
+  }
 };
+
+/// The margins of rates as far as is known of tensions: over the box those of every deviation, if that is known.
+template <class I>
+typename BoxEnclosure<I>::RateMargins rate_margins(const ProofModel<I>& problem, const Inertia<I>& inertia,
+                                                   const BoxEnclosure<I>& box) {
+  std::array<I, kCables> at_mid, over;
+  for (const auto& [id, value, disturbed] : box.margins) {
+    if (id.kind != MarginKind::kTensionMax) continue;
+    const auto i = static_cast<std::size_t>(id.cable);
+    at_mid[i] = box.high[i].at_mid;
+    over[i] = problem.model.tension_upper[i] - disturbed;
+  }
+  typename BoxEnclosure<I>::RateMargins result{inertia.at_mid.margins, inertia.over.margins};
+  problem.moving->add_powers(inertia.at_mid, at_mid, result.at_mid);
+  problem.moving->add_powers(inertia.over, over, result.over);
+  return result;
+}
 
 /// How far a deviation may change a margin.
 template <class I>
@@ -446,11 +504,8 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   std::optional<Inertia<I>> inertia;
   if (is_moving) {
     inertia.emplace(problem, segment, s);
-    result.rates = {inertia->at_mid.margins, inertia->over.margins};
   }
-  const Densities<I> densities =
-      enclose_densities(problem, motion.r_WP, inverse, radius, offset,
-                        inertia ? Inertia<I>::rest(model.wrench, inertia->at_mid) : model.wrench);
+  const Densities<I> densities = enclose_densities(problem, motion.r_WP, inverse, radius, offset, model.wrench);
   if (!densities.are_enclosed) return result;
   for (std::size_t i = 0; i < kCables; ++i) {
     result.density[i] = densities.nominal[i];
@@ -459,8 +514,10 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   }
   result.regular = true;
   set_tensions(result);
-  if (inertia) inertia->spread(inverse, result);
+  if (inertia) inertia->add(inverse, result);
   add_tension_margins(model, result);
+  if (inertia && inertia->slowed_at_mid) result.is_slowed_badly = !inertia->is_slowed_well(problem, inverse, result);
+  if (inertia) result.rates = rate_margins(problem, *inertia, result);
   if (!problem.tolerance || !result.margins.are_positive()) return result;
   Vector6<I> wrench = inertia ? Inertia<I>::rest(model.wrench, inertia->over) : model.wrench;
   Vector6<I> change;
@@ -487,6 +544,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   result.disturbance.reset();
   for (auto& margin : result.margins) margin.disturbed = margin.value.range;
   add_disturbance(problem, undisturbed, continuation_steps, result);
+  result.rates = rate_margins(problem, *inertia, result);
   return result;
 }
 
@@ -692,6 +750,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
                  int continuation_steps, const PairDirections* directions) {
   using Kind = BoxVerdict::Kind;
   using Status = typename MotionEnclosure<I>::Status;
+  constexpr int kSmall = 6;  // depth of boxes from which on smaller ones would hardly narrow what deviations may do
   const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box, continuation_steps);
   BoxVerdict verdict;
   if (const auto kind = kind_without_motion<I>(enclosure.motion)) {
@@ -713,9 +772,9 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
     if (clearance > 0 && upper_bound(value.at_mid) <= required) too_close = true;
     if (!certainly_positive(value.at_mid)) midpoint_positive = false;
     if (!certainly_positive(value.range)) all_positive_undisturbed = false;
-    if (problem.tolerance && lower_bound(value.at_mid) + (bound - lower_bound(value.range)) <= 0) {
-      within_tolerance = false;  // a smaller box would hardly do
-    }
+    const double left_at_mid = lower_bound(value.at_mid) + (bound - lower_bound(value.range));  // by deviations
+    if (problem.tolerance && left_at_mid <= 0) within_tolerance = false;  // a smaller box would hardly do
+    if (clearance > 0 && problem.tolerance && box.depth >= kSmall && left_at_mid <= required) too_close = true;
     if (certainly_nonpositive(value.at_mid)) {
       // Where a parameter may be out of its range, the box holds poses that are no witnesses.
       const bool throughout = enclosure.motion == Status::kKnown && certainly_nonpositive(value.range);
@@ -747,7 +806,9 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
     verdict.kind = within_tolerance || !all_positive_undisturbed ? Kind::kSplit : Kind::kTolerance;
   }
   if (verdict.kind != Kind::kRefuted && verdict.kind != Kind::kProved) verdict.worst = weakest(problem, enclosure);
+  if (enclosure.rates) verdict.wrench_scale = 1;  // the growth of K is not claimed of moves
   if (verdict.kind == Kind::kProved && enclosure.rates) judge_rates<I>(*enclosure.rates, verdict);
+  if (verdict.kind == Kind::kSplit && enclosure.is_slowed_badly) verdict.kind = Kind::kSlowing;
   verdict.clearance_m = std::numeric_limits<double>::infinity();
   if (verdict.kind == Kind::kProved && directions != nullptr && problem.bodies) {
     judge_bodies(problem, enclosure, *directions, verdict);

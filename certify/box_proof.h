@@ -95,11 +95,13 @@ struct BoxEnclosure {
   MarginList<I> margins;                           ///< those of lengths, and where regular those of tensions
   std::optional<MotionEnclosure<I>> pose;          ///< only where the problem has bodies
   /// Of a move in time: limits less rates, at the midpoint and on all of T. Tensions are those with inertia then, of
-  /// every time at which the move is there; their slopes are those with the inertia of the midpoint.
+  /// every time at which the move is there; their slopes are those at rest.
   struct RateMargins {
     std::vector<RateMargin<I>> at_mid, over;
   };
   std::optional<RateMargins> rates;
+  /// Of a move that may be slowed down: at the midpoint, while it is, something is not shown to be within its limits.
+  bool is_slowed_badly = false;
   /// What deviations may change: only where the problem has tolerances, the undisturbed margins are positive on all of
   /// T, and for every deviation the commanded pose is proved to exist, and J to be non-singular.
   std::optional<DeviationBounds<I>> disturbance;
@@ -126,6 +128,7 @@ struct BoxVerdict {
     kOutOfRange,    ///< at the midpoint a parameter may be outside of its range (only where the motion is implied)
     kNear,          ///< as kProved, but some pairs of bodies are not shown to be apart along the given directions
     kInside,   ///< as kProved, but of one pair a part of a body is inside of the other, a closed mesh, at the midpoint
+    kSlowing,  ///< as kSplit, but while the move is slowed down at the midpoint, a limit may not be kept there
     kTooFast,  ///< as kProved, but at the midpoint `rate` is proved to be at its limit or beyond it
     kFault,    ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
   };
@@ -137,8 +140,8 @@ struct BoxVerdict {
   bool throughout = false;
   double tension_N = 0;  ///< proved lower bounds over the box; only if kProved
   double length_m = 0;
-  double wrench_scale = 0;
-  double clearance_m = 0;  ///< of all pairs, beyond their clearances; infinite where there are none
+  double wrench_scale = 0;  ///< of a move 1: that K may grow is not claimed of it
+  double clearance_m = 0;   ///< of all pairs, beyond their clearances; infinite where there are none
   struct NearPair {
     enum class AtMid {
       kApart,             ///< the direction does show it at the midpoint

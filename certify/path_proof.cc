@@ -13,6 +13,7 @@
 #include "base/input_error.h"
 #include "certify/gravest.h"
 #include "certify/undecided.h"
+#include "kinematics/time_law.h"
 #include "problem/decimal.h"
 
 namespace taut {
@@ -35,6 +36,21 @@ const DecimalText& limit_text(const Problem& problem, MarginId margin) {
   return problem.robot.length_m[cable].upper;
 }
 
+const ExpressionText& limit_text(const Problem& problem, RateId rate) {
+  const TimeText& time = problem.time.value();
+  const auto cable = static_cast<std::size_t>(rate.cable);
+  switch (rate.kind) {
+    case RateKind::kWinchSpeed: return time.winch_speed_m_s[cable].value();
+    case RateKind::kWinchAcceleration: return time.winch_acceleration_m_s2[cable].value();
+    case RateKind::kWinchPower: return time.winch_power_W[cable].value();
+    case RateKind::kLoadSpeed: return time.load_speed_m_s.value();
+    case RateKind::kLoadAcceleration: return time.load_acceleration_m_s2.value();
+    case RateKind::kLoadAngularSpeed: return time.load_angular_speed_rad_s.value();
+    case RateKind::kLoadAngularAcceleration: break;
+  }
+  return time.load_angular_acceleration_rad_s2.value();
+}
+
 PathWitness make_witness(const Prover& prover, const Segment& segment, const SegmentWitness& found,
                          const PathPoint& at) {
   PathWitness witness;
@@ -44,8 +60,16 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Seg
     witness.depth_m = "0";  // certificates state more where the kernel shows more
     return witness;
   }
-  const MarginId margin = found.margin;
   const DyadicBox& box = found.box;
+  if (found.rate) {
+    witness.rate = found.rate;
+    witness.limit = limit_text(prover.problem(), *found.rate);
+    const MpInterval value = prover.quantity_at_mid(segment, box, *found.rate);
+    witness.value_lower = value.lower().to_decimal(kWitnessDigits, MPFR_RNDD);  // certificates state the kernel's
+    witness.value_upper = value.upper().to_decimal(kWitnessDigits, MPFR_RNDU);
+    return witness;
+  }
+  const MarginId margin = found.margin;
   const auto& deviation = found.deviation;
   witness.margin = margin;
   witness.limit = limit_text(prover.problem(), margin);
@@ -129,8 +153,9 @@ Margins margins_below(double tension_N, double length_m, double wrench_scale, st
 
 PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known, const std::stop_token& stop,
                      ProofAim aim) {
-  // What a law has to be (complaint(path)) and what refutes it are not asked for yet.
-  if (path.timing) throw std::logic_error("a move in time, of which only segments are proved");
+  if (path.timing) {
+    if (const std::string text = complaint(path); !text.empty()) throw InputError("time law: " + text);
+  }
   PathProof result;
   if (path.segments() == 0) {
     if (path.waypoints.size() == 1) result.witness = refute_pose(prover, path.segment(0), 0, result.reason, stop);
@@ -140,7 +165,8 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
   }
   result.segments.resize(path.segments());
   const auto prove = [&](std::size_t k) {
-    const SegmentProof* earlier = known ? known(path.segment(k)) : nullptr;
+    // Known proofs are of the path alone.
+    const SegmentProof* earlier = known && !path.timing ? known(path.segment(k)) : nullptr;
     result.segments[k] = earlier != nullptr ? *earlier : prover.prove(path.segment(k), 0, stop, aim);
   };
   // Making threads takes longer than most short paths.

@@ -228,4 +228,21 @@ MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box,
   return *quantity;
 }
 
+MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, RateId rate) const {
+  std::optional<MpInterval> quantity;
+  for (std::size_t rung = 1; rung <= ladder_.last(); ++rung) {
+    const PrecisionScope precision(ladder_.bits(rung));
+    Faults<MpInterval>::clear();
+    const BoxEnclosure<MpInterval> enclosure = enclose_box(ladder_.multiprecision(rung), segment, box);
+    if (Faults<MpInterval>::raised() || !enclosure.rates) continue;
+    const auto& margins = enclosure.rates->at_mid;
+    const auto it = std::ranges::find(margins, rate, &RateMargin<MpInterval>::id);
+    if (it == margins.end()) continue;
+    quantity = it->size;
+    if (certainly_nonpositive(it->value)) break;
+  }
+  if (!quantity) throw std::logic_error("a refuted rate has no enclosure");
+  return *quantity;
+}
+
 }  // namespace taut

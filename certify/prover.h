@@ -82,6 +82,9 @@ class Prover {
   [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
                                            const Deviation& deviation) const;
 
+  /// The same of the magnitude of a rate of a move, for all times at which it is there.
+  [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, RateId rate) const;
+
   /// Of a segment that is not admissible because of a range: ": px is 1.7, its range is from -1.5 to 1.1 (SI: m, rad)".
   /// Empty where there is no such parameter.
   [[nodiscard]] std::string range_violation(const Segment& segment) const;

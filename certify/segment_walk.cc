@@ -238,6 +238,7 @@ SegmentWalk::Step SegmentWalk::examine(const Task& task) {
     case Kind::kRefuted: return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, task.box}};
     case Kind::kTooFast:
       return {Step::Kind::kRefuted, verdict, SegmentWitness{false, {}, task.box, nullptr, {}, *verdict.rate}};
+    case Kind::kSlowing: return {Step::Kind::kGiveUp, verdict, {}, Undecided::kSlowing};
     case Kind::kTooClose: return {Step::Kind::kGiveUp, verdict, {}, Undecided::kClearance};
     case Kind::kOutOfRange: return {Step::Kind::kGiveUp, verdict, {}, Undecided::kParameterRange};
     case Kind::kSplit:

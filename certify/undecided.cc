@@ -35,6 +35,7 @@ UndecidedWords words(Undecided reason) {
     case Undecided::kOutsideManifold:
       return {"of the query cannot be held within the limits, in floating point", nullptr};
     case Undecided::kKernel: return {"the checker's kernel does not confirm what was found", nullptr};
+    case Undecided::kSlowing: return {"a limit may not be kept while the move is slowed down", nullptr};
     case Undecided::kBodies: return {"bodies were not proved to stay apart:", nullptr};
   }
   return {"", nullptr};

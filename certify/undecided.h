@@ -31,8 +31,9 @@ enum class Undecided {
   kOutsideManifold,
   kKernel,
   kBodies,
+  kSlowing,
 };
-inline constexpr std::size_t kUndecidedReasons = 18;
+inline constexpr std::size_t kUndecidedReasons = 19;
 
 /// The words for a reason, which may be followed by a place: "bisection depth reached at". `at_pose` has words for a
 /// single pose, or is null.

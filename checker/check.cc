@@ -20,12 +20,28 @@
 namespace taut::checker {
 namespace {
 
+/// What a case states of a path that has no law in time.
+nlohmann::json without_time(nlohmann::json of_case) {
+  of_case.erase("time");
+  if (!of_case["load"].contains("items")) return of_case;
+  for (nlohmann::json& item : of_case["load"]["items"]) {
+    if (item.contains("weight")) item["weight"].erase("inertia_box_m");
+  }
+  return of_case;
+}
+
 /// The certificate's problem is the case's. In an audit the path is what was asked about: so the case's query does not
-/// matter, nor its space where the path goes through the free coordinates.
+/// matter, nor its space where the path goes through the free coordinates. What a case allows in time does not matter
+/// to an audited path without a law, nor to that no path exists.
 /// @returns what of the case was not compared
-std::vector<std::string> require_problem(nlohmann::json problem, const nlohmann::json& of_case) {
+std::vector<std::string> require_problem(nlohmann::json problem, nlohmann::json of_case, bool is_no_path) {
   std::vector<std::string> not_compared;
-  if (problem["query"]["waypoints"].empty()) {
+  const bool is_audit = problem["query"]["waypoints"].empty();
+  if ((is_audit || is_no_path) && of_case.contains("time") && !problem.contains("time")) {
+    not_compared.emplace_back("time");
+    of_case = without_time(std::move(of_case));
+  }
+  if (is_audit) {
     if (problem["query"] != of_case["query"]) not_compared.emplace_back("the case's query");
     problem["query"] = of_case["query"];
     if (is_coordinate_space(problem["space"], of_case["space"]) && problem["space"] != of_case["space"]) {
@@ -129,6 +145,7 @@ std::string describe_open_meshes(const Problem& problem) {
 
 std::string describe_accepted(const Certificate& certificate, const CheckResult& result) {
   const std::string audit = certificate.problem.query.empty() ? "an audit, " : "";
+  const std::string kind = audit + (certificate.path.timing ? "a move, " : "");
   const std::string boxes = plural(result.counts.boxes, "box");
   const int bits = result.counts.bits;
   if (certificate.verdict == Verdict::kProved) {
@@ -136,11 +153,12 @@ std::string describe_accepted(const Certificate& certificate, const CheckResult&
     const std::size_t pairs = certificate.problem.bodies ? certificate.problem.bodies->pairs.size() : 0;
     const std::string apart =
         pairs == 0 ? "" : fmt::format(", clearance margin >= {} m of {}", clearance, plural(pairs, "pair"));
-    return fmt::format(
-        "{}proved again: {}, {}, tension margin >= {} N, length margin >= {} m, wrench scale >= {}{}; {} bits", audit,
-        plural(result.counts.segments, "segment"), boxes, tension, length, scale, apart, bits);
+    const std::string growth =
+        certificate.path.timing ? ", limits in time kept" : fmt::format(", wrench scale >= {}", scale);
+    return fmt::format("{}proved again: {}, {}, tension margin >= {} N, length margin >= {} m{}{}; {} bits", kind,
+                       plural(result.counts.segments, "segment"), boxes, tension, length, growth, apart, bits);
   }
-  const std::string refuted = audit + "refuted again: the witness is confirmed";
+  const std::string refuted = kind + "refuted again: the witness is confirmed";
   const std::size_t stretches = certificate.stretch_texts.size();
   if (stretches == 0) return fmt::format("{}; {} bits", refuted, bits);
   std::size_t open = 0;
@@ -162,9 +180,9 @@ void require_trusted(const CheckOptions& options, CheckResult& result) {
   }
 }
 
-void require_case(const nlohmann::json& problem, const CheckOptions& options, CheckResult& result) {
+void require_case(const nlohmann::json& problem, bool is_no_path, const CheckOptions& options, CheckResult& result) {
   if (options.problem != nullptr) {
-    result.not_compared = require_problem(problem, *options.problem);
+    result.not_compared = require_problem(problem, *options.problem, is_no_path);
   } else {
     result.not_compared.emplace_back("case");
   }
@@ -182,9 +200,10 @@ Theorem::Verdict theorem_verdict(Verdict verdict) {
 /// Signer, case, path file and verdict are those that were asked for.
 void require_asked_for(const Certificate& certificate, const CheckOptions& options, CheckResult& result) {
   require_trusted(options, result);
-  require_case(certificate.problem_json, options, result);
+  require_case(certificate.problem_json, false, options, result);
   if (options.path != nullptr) {
     require_path(certificate, result.sha256, *options.path);
+    if (certificate.path.timing) result.not_compared.emplace_back("the path's law in time");
   } else {
     result.not_compared.emplace_back("path file");
   }
@@ -262,7 +281,7 @@ Theorem::Verdict check_no_path(const std::string& bytes, Outline outline, const 
   keep(bytes, options, result);
   result.signer = certificate.signer;
   require_trusted(options, result);
-  require_case(certificate.problem_json, options, result);
+  require_case(certificate.problem_json, true, options, result);
   if (options.path != nullptr) throw Rejected("it is about no path, but about all that might lead to a waypoint");
   require_verdict(Theorem::Verdict::kNoPath, options);
   result.counts = confirm(certificate, confirm_options(options, start));

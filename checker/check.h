@@ -4,10 +4,10 @@
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
 // arithmetic, and no search. To believe "accepted", read in this order: theorem.h; in kernel/ (the mathematics)
 // errors.h, ball.h, mean_value_form.h, expression.h, linear.h, surface.h, statement.h, loads.h, bodies.h,
-// machine.h, zero.h, motion.h, deviation.h, clearance.h, mesh_clearance.h, mesh_inside.h, box_proof.h, deviant.h and
-// their .cc; witness.h, near_waypoints.h and confirm.cc (what is proved of which poses); then format/ (that the numbers
-// are those of the file); format/signature.h if it matters who wrote it. For "no path": cell_form.h, outside.h and .cc
-// in kernel/, then no_path.h and .cc.
+// machine.h, zero.h, motion.h, moving.h, deviation.h, clearance.h, mesh_clearance.h, mesh_inside.h, box_proof.h,
+// deviant.h and their .cc; witness.h, near_waypoints.h and confirm.cc (what is proved of which poses); then format/
+// (that the numbers are those of the file); format/signature.h if it matters who wrote it. For "no path": cell_form.h,
+// outside.h and .cc in kernel/, then no_path.h and .cc.
 #pragma once
 
 #include <array>
@@ -93,7 +93,7 @@ struct CheckResult {
   bool is_trusted = false;                ///< whether the signer is one of those asked for
   bool is_audit = false;                  ///< the path itself is what was asked about
   Theorem::Counts counts;                 ///< as far as the check went
-  std::vector<std::string> not_compared;  ///< "case", "path file", and what of a case does not matter to an audit
+  std::vector<std::string> not_compared;  ///< "case", "path file", and what of these does not matter to it
 };
 
 /// SHA-256 of some bytes, 64 lower-case hex digits.

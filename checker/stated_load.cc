@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "checker/format/exact.h"
@@ -12,13 +14,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// problem.load alone: the rest of a certificate may take gigabytes.
-Json load_of(const std::string& certificate) {
-  const auto keep = [](int depth, Json::parse_event_t event, Json& parsed) {
+/// A part of the problem alone, or null: the rest of a certificate may take gigabytes.
+Json part_of(const std::string& certificate, const char* key) {
+  const auto keep = [key](int depth, Json::parse_event_t event, Json& parsed) {
     if (event != Json::parse_event_t::key) return true;
-    return depth == 1 ? parsed == "problem" : depth == 2 ? parsed == "load" : true;
+    return depth == 1 ? parsed == "problem" : depth == 2 ? parsed == key : true;
   };
-  return Json::parse(certificate, keep).at("problem").at("load");
+  return Json::parse(certificate, keep).at("problem").value(key, Json());
 }
 
 /// Of a decimal or "a/b" that the reader has accepted, rounded to 6 digits, in any locale.
@@ -63,13 +65,17 @@ std::string item_text(const Json& item) {
   if (number(weight.at("at_tolerance_m")) != "0") {
     text += fmt::format(" within {} m", number(weight["at_tolerance_m"]));
   }
+  if (weight.contains("inertia_box_m")) {
+    const Json& box = weight["inertia_box_m"];
+    text += fmt::format(", in a box of {} x {} x {} m", number(box.at(0)), number(box.at(1)), number(box.at(2)));
+  }
   return text;
 }
 
 }  // namespace
 
 std::string stated_load(const std::string& certificate) {
-  const Json load = load_of(certificate);
+  const Json load = part_of(certificate, "load");
   std::string text;
   for (const Json& item : load.value("items", Json::array())) {
     text += fmt::format("{}{} {}", text.empty() ? "" : "; ", item.at("name").dump(-1, ' ', true), item_text(item));
@@ -83,6 +89,39 @@ std::string stated_load(const std::string& certificate) {
   if (load.contains("items")) text += fmt::format("; under {} m/s^2", vector(load.at("gravity_m_s2")));
   if (load.contains("items") || load.contains("ellipsoid_name")) text += ". Names are not checked";
   return "load: " + text;
+}
+
+std::string stated_time(const std::string& certificate) {
+  struct Limit {
+    const char *key, *what, *unit;
+  };
+  static constexpr std::array<Limit, 7> kLimits = {
+      {{"winch_speed_m_s", "winch speed", "m/s"},
+       {"winch_acceleration_m_s2", "winch acceleration", "m/s^2"},
+       {"winch_power_W", "winch power", "W"},
+       {"load_speed_m_s", "speed of the load point", "m/s"},
+       {"load_acceleration_m_s2", "acceleration of the load point", "m/s^2"},
+       {"load_angular_speed_rad_s", "angular speed", "rad/s"},
+       {"load_angular_acceleration_rad_s2", "angular acceleration", "rad/s^2"}}};
+  const auto text_of = [](const Json& limit) { return limit.is_null() ? "no limit" : limit.get<std::string>(); };
+  const Json time = part_of(certificate, "time");
+  std::string text;
+  for (const auto& [key, what, unit] : kLimits) {
+    if (!time.contains(key)) continue;
+    const Json& limit = time[key];
+    std::string value;
+    if (limit.is_array() && std::ranges::any_of(limit, [&](const Json& one) { return one != limit[0]; })) {
+      for (const Json& one : limit) value += (value.empty() ? "(" : ", ") + text_of(one);
+      value += ")";
+    } else {
+      value = text_of(limit.is_array() ? limit[0] : limit);
+    }
+    text += fmt::format("{}{} below {} {}", text.empty() ? "limits in time: " : "; ", what, value, unit);
+  }
+  if (time.contains("stopping_time_s")) {
+    text += fmt::format("; may be stopped in {} s or more", time["stopping_time_s"].get<std::string>());
+  }
+  return text;
 }
 
 }  // namespace taut::checker

@@ -115,10 +115,11 @@ MeshSupplier meshes_of(const Arguments& arguments, const Case* the_case) {
   };
 }
 
-/// With the load and the bodies that an accepted certificate is about, where no case says what they have to be.
+/// With the load, the limits in time and the bodies that an accepted certificate is about, where no case says what they
+/// have to be.
 struct CheckedFile {
   CheckResult result;
-  std::string load, bodies;
+  std::string load, time, bodies;
   bool is_bad_input = false;  ///< of kMalformed: a file could not be read, or one that is not the certificate is wrong
 };
 
@@ -138,9 +139,10 @@ CheckedFile check_file(const Arguments& arguments) {
     const std::string bytes = read_whole(arguments.certificate_path, kMaxFileSize);
     if (arguments.case_path.empty()) {
       options.meshes = meshes_of(arguments, nullptr);
-      CheckedFile checked{check(bytes, options), "", ""};
+      CheckedFile checked{check(bytes, options), "", "", ""};
       if (checked.result.outcome == Outcome::kAccepted) {
         checked.load = stated_load(bytes);
+        checked.time = stated_time(bytes);
         checked.bodies = stated_bodies(bytes);
       }
       return checked;
@@ -156,13 +158,13 @@ CheckedFile check_file(const Arguments& arguments) {
                                 arguments.interpolation);
       options.path = &*path;
     }
-    return {check(bytes, options), "", ""};
+    return {check(bytes, options), "", "", ""};
   } catch (const Malformed& error) {
     malformed.message = error.what();
   } catch (const InputError& error) {
     malformed.message = error.what();
   }
-  return {malformed, "", "", true};  // check() itself says what is wrong with a certificate
+  return {malformed, "", "", "", true};  // check() itself says what is wrong with a certificate
 }
 
 /// "; path file not compared; not compared: the case's query", or nothing.
@@ -261,6 +263,7 @@ int run(int argc, char** argv) {
     std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result)
               << fmt::format("; {:.2f} s; ", seconds) << describe_signer(result) << std::endl;
     if (!checked.load.empty()) std::cout << sanitize(checked.load) << std::endl;
+    if (!checked.time.empty()) std::cout << sanitize(checked.time) << std::endl;
     if (!checked.bodies.empty()) std::cout << sanitize(checked.bodies) << std::endl;
   }
   if (!arguments.quiet && is_malformed)

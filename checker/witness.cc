@@ -1,17 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/witness.h"
 
-#include <stdexcept>
+#include <algorithm>
+
+#include "checker/kernel/moving.h"
 
 namespace taut::checker {
 namespace {
 
+/// The least or the largest tension of the witness's cable.
+/// @param beside  what acts beside the items and the ellipsoid's spread
+Ball tension(const Machine& machine, const Geometry& geometry, const Witness& witness, const Vector6<Ball>& beside) {
+  const Tensions tensions = machine.tensions(geometry, Inverse(geometry.D), beside);
+  const std::size_t side = witness.kind == WitnessKind::kTensionMin ? 0 : 1;
+  return (geometry.length[witness.cable] * tensions.extreme(witness.cable, side)).range();
+}
+
 /// The least or the largest tension, or the length, of the witness's cable.
-Ball quantity(const Machine& machine, const Geometry& geometry, const Witness& witness) {
-  const MeanValueForm& length = geometry.length[witness.cable];
-  if (witness.kind == WitnessKind::kLengthMin || witness.kind == WitnessKind::kLengthMax) return length.range();
-  const Tensions tensions = machine.tensions(geometry, Inverse(geometry.D));
-  return (length * tensions.extreme(witness.cable, witness.kind == WitnessKind::kTensionMin ? 0 : 1)).range();
+Ball quantity(const Machine& machine, const Geometry& geometry, const Witness& witness, const Vector6<Ball>& beside) {
+  const bool is_length = witness.kind == WitnessKind::kLengthMin || witness.kind == WitnessKind::kLengthMax;
+  return is_length ? geometry.length[witness.cable].range() : tension(machine, geometry, witness, beside);
+}
+
+/// The same of a move, or a rate that has a limit, for every time at which the move is at the place.
+Ball quantity_of_move(const Machine& machine, const Geometry& geometry, const Moving& moving, const Witness& witness) {
+  const std::optional<RateKind> rate = rate_of(witness.kind);
+  if (!rate) return quantity(machine, geometry, witness, moving.beside(machine));
+  if (rate == RateKind::kWinchPower) {
+    return tension(machine, geometry, witness, moving.beside(machine)) * moving.winch_speed[witness.cable];
+  }
+  const auto is_witnessed = [&](const RateMargin& of) { return of.kind == *rate && of.cable == witness.cable; };
+  return std::ranges::find_if(moving.margins, is_witnessed)->rate;
 }
 
 Box at_place(const PathPoint& place, Box how) {
@@ -28,23 +47,41 @@ Ball determinant_at(const Machine& machine, const Problem& problem, const Path& 
 }
 
 Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
-  if (path.timing) throw std::logic_error("a witness of a move, whose inertia is not known here");
-  const Geometry stated =
-      commanded_geometry(machine, problem, path, witness.at.segment, at_place(witness.at, witness.at_box));
-  if (!witness.loads && !witness.deviation) return quantity(machine, stated, witness);
+  const Box there = at_place(witness.at, witness.at_box);
+  const Geometry stated = commanded_geometry(machine, problem, path, witness.at.segment, there);
+  if (path.timing) {
+    if (witness.loads || witness.deviation) throw Rejected("the witness of a move states loads or a deviation");
+    const std::optional<RateKind> rate = rate_of(witness.kind);
+    if (rate && !problem.time.value().of(*rate, witness.cable)) {
+      throw Rejected("the witness is of a limit that the problem does not state");
+    }
+    // That the move may be run slower as well does not help it.
+    const Speed speed = speed_by_law(problem, path, witness.at.segment, there);
+    return quantity_of_move(machine, stated, moving(machine, problem, path, witness.at.segment, there, speed), witness);
+  }
+  if (rate_of(witness.kind)) throw Rejected("the witness is of a limit in time, and the path has no law");
+  const auto quantity_at_rest = [&](const Machine& of, const Geometry& geometry) {
+    return quantity(of, geometry, witness, of.wrench);
+  };
+  if (!witness.loads && !witness.deviation) return quantity_at_rest(machine, stated);
   const Problem loaded = witness.loads ? acting(problem, *witness.loads) : problem;
-  if (!witness.deviation) return quantity(Machine(loaded), stated, witness);
+  if (!witness.deviation) return quantity_at_rest(Machine(loaded), stated);
   const Deviant deviates = deviant(machine, loaded, stated, *witness.deviation);
-  return quantity(deviates.machine, deviates.geometry, witness);
+  return quantity_at_rest(deviates.machine, deviates.geometry);
 }
 
 void confirm_violation(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
   const Ball seen = witnessed_quantity(machine, problem, path, witness);
+  const std::optional<RateKind> rate = rate_of(witness.kind);
+  const std::string what = rate ? "the rate" : "the tension or length";
   for (const Ball& excess : {seen - Ball(witness.value_lower), Ball(witness.value_upper) - seen}) {
-    if (certainly_negative(excess)) throw Rejected("the tension or length at the witness is outside the stated bounds");
-    if (!certainly_nonnegative(excess))
-      throw Undefined("the tension or length at the witness may be outside the stated bounds");
+    if (certainly_negative(excess)) throw Rejected(what + " at the witness is outside the stated bounds");
+    if (!certainly_nonnegative(excess)) throw Undefined(what + " at the witness may be outside the stated bounds");
   }
+  if (!rate) return;
+  const Ball beyond = Ball(witness.value_lower) - rate_limit(problem, *rate, witness.cable);
+  if (certainly_negative(beyond)) throw Rejected("the witness states a rate that may be below its limit");
+  if (!certainly_nonnegative(beyond)) throw Undefined("the witness's rate may be below its limit");
 }
 
 Ball witnessed_depth(const Machine& machine, const Geometry& geometry, const Witness& witness) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
+#include <utility>
 
 #include "base/input_error.h"
 #include "problem/decimal.h"
@@ -71,9 +71,14 @@ LoadItem read_item(const JsonCursor& value) {
   const JsonCursor what = value.at(kind.c_str());
   LoadItem item{value.at("name").text(), {}};
   if (kind == "weight") {
-    what.expect_keys({"mass_kg", "at_m", "at_tolerance_m"});
+    const bool has_box = what.contains("inertia_box_m");
+    std::vector<std::string> keys = {"mass_kg", "at_m", "at_tolerance_m"};
+    if (has_box) keys.emplace_back("inertia_box_m");
+    what.expect_keys(keys);
     const auto [lower, upper] = read_numbers<2>(what.at("mass_kg"));
-    item.what = Weight{lower, upper, read_numbers<3>(what.at("at_m")), what.at("at_tolerance_m").text()};
+    Weight weight{lower, upper, read_numbers<3>(what.at("at_m")), what.at("at_tolerance_m").text()};
+    if (has_box) weight.inertia_box = read_numbers<3>(what.at("inertia_box_m"));
+    item.what = std::move(weight);
   } else if (kind == "force") {
     what.expect_keys({kind_of(what, kSets), "axes", "at_m"});
     item.what = Force{read_set(what), read_axes(what.at("axes")), read_numbers<3>(what.at("at_m"))};
@@ -112,10 +117,10 @@ json item_to_json(const LoadItem& item) {
   json result = {{"name", item.name}};
   std::visit(
       Overloaded{[&](const Weight& w) {
-                   if (w.inertia_box) throw std::logic_error("an inertia, which no certificate states");
-                   result["weight"] = {{"mass_kg", json::array({w.mass_lower, w.mass_upper})},
-                                       {"at_m", w.at},
-                                       {"at_tolerance_m", w.at_tolerance}};
+                   json& weight = result["weight"] = {{"mass_kg", json::array({w.mass_lower, w.mass_upper})},
+                                                      {"at_m", w.at},
+                                                      {"at_tolerance_m", w.at_tolerance}};
+                   if (w.inertia_box) weight["inertia_box_m"] = *w.inertia_box;
                  },
                  [&](const Force& f) {
                    json& force = result["force"] = set_to_json(f.set);
@@ -178,12 +183,22 @@ void validate_set(const std::string& where, const VectorSet& set) {
              set);
 }
 
+void validate_box(const std::string& where, const RationalVector& sides) {
+  const auto lengths = numbers_at(where, sides);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (lengths[k] > 0 && lengths[k] <= kGreatestInertiaBox_m) continue;
+    throw FieldError(fmt::format("{}[{}]", where, k), excerpt(sides[k]),
+                     fmt::format("expected a length above zero, and at most {} m", kGreatestInertiaBox_m));
+  }
+}
+
 void validate_item(const std::string& where, const LoadItem& item) {
   std::visit(Overloaded{[&](const Weight& w) {
                           validate_not_negative(where + ".mass", w.mass_lower);
                           validate_range(where + ".mass", w.mass_lower, w.mass_upper);
                           numbers_at(where + ".at", w.at);
                           validate_not_negative(where + ".at_tolerance", w.at_tolerance);
+                          if (w.inertia_box) validate_box(where + ".inertia.box", *w.inertia_box);
                         },
                         [&](const Force& f) {
                           validate_set(where + ".force", f.set);

@@ -14,6 +14,7 @@ namespace taut {
 inline constexpr std::size_t kMaxLoadItems = 64;
 inline constexpr std::size_t kMaxLoadCases = 64;  ///< of one item
 inline constexpr std::size_t kMaxItemName = 100;
+inline constexpr int kGreatestInertiaBox_m = 1'000'000;  ///< a side of it
 
 /// Checks all that the types of problem/loads.h and LoadText promise, that there is a load at all, that weights have
 /// gravity, and that where there is gravity something pulls along it. Content of an item is named

@@ -50,7 +50,7 @@ struct Weight {
   RationalVector at;
   RationalText at_tolerance;
   /// The sides of a box, along the axes of P, that the mass fills evenly around its centre of gravity [m]; else it is a
-  /// point. Only of moves in time. No case and no certificate states it yet.
+  /// point. Only of a problem with limits in time.
   std::optional<RationalVector> inertia_box = std::nullopt;
   bool operator==(const Weight&) const = default;
 };

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <tuple>
 
 #include "base/input_error.h"
@@ -15,6 +14,7 @@
 #include "problem/decimal.h"
 #include "problem/expression.h"
 #include "problem/load.h"
+#include "problem/rational.h"
 
 namespace taut {
 namespace {
@@ -426,6 +426,29 @@ void validate_query(const Problem& problem) {
   }
 }
 
+/// Checks the limits in time, and what only a problem with them may state, or may not.
+void validate_time(const Problem& problem) {
+  bool has_mass = false;
+  for (const LoadItem& item : problem.load.items) {
+    const auto* weight = std::get_if<Weight>(&item.what);
+    if (!weight) continue;
+    has_mass |= parse_rational(weight->mass_upper) > 0;
+    if (!problem.time && weight->inertia_box) {
+      throw FieldError(fmt::format("load.items[{}].inertia", item.name), "a box",
+                       "expected none in a problem without 'time'");
+    }
+  }
+  if (!problem.time) return;
+  validate(*problem.time);
+  if (!has_mass) {
+    throw FieldError("load.items", "no mass", "expected a load with at least one item of kind 'mass' beside 'time'");
+  }
+  if (!problem.space.constraints.empty()) {
+    throw FieldError("space.constraints", fmt::format("{} constraints", problem.space.constraints.size()),
+                     "expected no constraints beside 'time'");
+  }
+}
+
 }  // namespace
 
 const char* name(AngleKind kind) {
@@ -495,7 +518,6 @@ SpaceText coordinate_space(const AnglesText& angles) {
 }
 
 json to_json(const Problem& problem) {
-  if (problem.time) throw std::logic_error("limits in time, which no certificate states");
   json parameters = json::array();
   for (const Parameter& parameter : problem.space.parameters) parameters.push_back(parameter_to_json(parameter));
   json pose = json::object();
@@ -524,6 +546,7 @@ json to_json(const Problem& problem) {
                  {"space", std::move(space)},
                  {"query", {{"waypoints", problem.query}}}};
   if (problem.bodies) result["bodies"] = to_json(*problem.bodies);
+  if (problem.time) result["time"] = to_json(*problem.time);
   return result;
 }
 
@@ -531,8 +554,10 @@ Problem problem_from_json(const json& value) {
   const auto member = [&](const char* key) -> JsonCursor { return {value[key], key}; };
   const JsonCursor whole(value, "problem");
   const bool has_bodies = whole.contains("bodies");
+  const bool has_time = whole.contains("time");
   std::vector<std::string> keys = {"name", "robot", "load", "tolerances", "space", "query"};
   if (has_bodies) keys.emplace_back("bodies");
+  if (has_time) keys.emplace_back("time");
   whole.expect_keys(keys);
   Problem problem;
   read(member("name"), problem.name);
@@ -552,6 +577,7 @@ Problem problem_from_json(const json& value) {
     for (const JsonCursor& entry : waypoint.elements()) read(entry, values.emplace_back());
   }
   if (has_bodies) problem.bodies = bodies_from_json(member("bodies"));
+  if (has_time) problem.time = time_from_json(member("time"));
   validate(problem);
   return problem;
 }
@@ -566,6 +592,15 @@ void validate(const Problem& problem) {
   validate_space(problem.space);
   if (problem.bodies) validate(*problem.bodies);
   validate_query(problem);
+  validate_time(problem);
+}
+
+Problem without_time(Problem problem) {
+  problem.time.reset();
+  for (LoadItem& item : problem.load.items) {
+    if (auto* weight = std::get_if<Weight>(&item.what)) weight->inertia_box.reset();
+  }
+  return problem;
 }
 
 }  // namespace taut

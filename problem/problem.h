@@ -125,7 +125,7 @@ struct Problem {
   std::vector<std::vector<ExpressionText>> query;
   /// What may not touch, if anything is said of that.
   std::optional<BodiesText> bodies;
-  /// What a move along a path may do in time. No case and no certificate states it yet.
+  /// What a move along a path may do in time, if anything is said of that: then a plan is a move.
   std::optional<TimeText> time = {};
 };
 
@@ -145,9 +145,13 @@ struct Problem {
 /// with an E that is symmetric and positive definite (exactly), no tolerances of the load beside items, expressions
 /// that parse, poses that by their form agree after a turn of a periodic parameter, a correct `flip`, tolerances >= 0,
 /// bodies (problem/bodies.h), and either no waypoints or at least two, with one finite value for each parameter, within
-/// its range up to rounding.
+/// its range up to rounding. Limits in time (problem/time.h) go with a load of which some has a mass, and with a space
+/// without constraints; only with them have weights a box of inertia.
 /// @throws FieldError
 void validate(const Problem& problem);
+
+/// The problem of the path alone: without limits in time, and with weights of which only the centre of gravity counts.
+[[nodiscard]] Problem without_time(Problem problem);
 
 /// The `problem` object of a certificate.
 [[nodiscard]] nlohmann::json to_json(const Problem& problem);

@@ -43,7 +43,21 @@ const std::vector<Unit>& units() {
         {Dimension::kSpeed, "cm/s", d("1e-2")},
         {Dimension::kSpeed, "mm/s", d("1e-3")},
         {Dimension::kSpeed, "km/h", d("1e3"), false, 3600},
+        {Dimension::kSpeed, "m/min", d("1"), false, 60},
         {Dimension::kDensity, "kg/m^3", d("1")},
+        {Dimension::kJerk, "m/s^3", d("1")},
+        {Dimension::kJerk, "cm/s^3", d("1e-2")},
+        {Dimension::kJerk, "mm/s^3", d("1e-3")},
+        {Dimension::kPower, "W", d("1")},
+        {Dimension::kPower, "mW", d("1e-3")},
+        {Dimension::kPower, "kW", d("1e3")},
+        {Dimension::kPower, "MW", d("1e6")},
+        {Dimension::kFrequency, "Hz", d("1")},
+        {Dimension::kFrequency, "kHz", d("1e3")},
+        {Dimension::kAngularSpeed, "rad/s", d("1")},
+        {Dimension::kAngularSpeed, "deg/s", d("1"), true},
+        {Dimension::kAngularAcceleration, "rad/s^2", d("1")},
+        {Dimension::kAngularAcceleration, "deg/s^2", d("1"), true},
     };
     // Moments have no units with inches or feet: E divides by the moment's unit, and 1/0.0254 is no decimal.
     std::vector<Unit> moments;
@@ -74,6 +88,11 @@ const char* dimension_name(Dimension dimension) {
     case Dimension::kArea: return "area";
     case Dimension::kSpeed: return "speed";
     case Dimension::kDensity: return "density";
+    case Dimension::kJerk: return "jerk";
+    case Dimension::kPower: return "power";
+    case Dimension::kFrequency: return "frequency";
+    case Dimension::kAngularSpeed: return "angular speed";
+    case Dimension::kAngularAcceleration: return "angular acceleration";
   }
   return "";
 }
@@ -102,9 +121,14 @@ Unit si_unit(Dimension dimension) {
     case Dimension::kAcceleration: return *find_unit("m/s^2");
     case Dimension::kArea: return *find_unit("m^2");
     case Dimension::kSpeed: return *find_unit("m/s");
-    case Dimension::kDensity: break;
+    case Dimension::kDensity: return *find_unit("kg/m^3");
+    case Dimension::kJerk: return *find_unit("m/s^3");
+    case Dimension::kPower: return *find_unit("W");
+    case Dimension::kFrequency: return *find_unit("Hz");
+    case Dimension::kAngularSpeed: return *find_unit("rad/s");
+    case Dimension::kAngularAcceleration: break;
   }
-  return *find_unit("kg/m^3");
+  return *find_unit("rad/s^2");
 }
 
 std::pair<std::string, std::optional<Unit>> split_unit(const std::string& text) {

@@ -13,17 +13,33 @@
 namespace taut {
 
 /// Those up to kTime have a unit in `units:`; bare numbers of the others are in SI.
-enum class Dimension { kLength, kForce, kMoment, kMass, kAngle, kTime, kAcceleration, kArea, kSpeed, kDensity };
+enum class Dimension {
+  kLength,
+  kForce,
+  kMoment,
+  kMass,
+  kAngle,
+  kTime,
+  kAcceleration,
+  kArea,
+  kSpeed,
+  kDensity,
+  kJerk,
+  kPower,
+  kFrequency,
+  kAngularSpeed,
+  kAngularAcceleration
+};
 /// The number of dimensions that have a unit in `units:`.
 inline constexpr std::size_t kDimensionsOfUnits = 6;
 
-/// A unit of known dimension: value in SI = value · factor / divisor, except that a degree is pi/180. Units of
-/// dimensions up to kTime have the divisor 1.
+/// A unit of known dimension: value in SI = value · factor / divisor, except that a degree is pi/180. All units but some
+/// of speeds have the divisor 1.
 struct Unit {
   Dimension dimension;
   std::string name;
   Decimal factor;
-  bool is_degree = false;
+  bool is_degree = false;  ///< deg, deg/s, deg/s^2
   int divisor = 1;
 };
 
@@ -33,7 +49,7 @@ struct Unit {
 [[nodiscard]] std::string unit_names(Dimension dimension);
 
 [[nodiscard]] std::optional<Unit> find_unit(std::string_view name);
-/// m, N, N*m, kg, rad, s, m/s^2, m^2, m/s, kg/m^3.
+/// m, N, N*m, kg, rad, s, m/s^2, m^2, m/s, kg/m^3, m/s^3, W, Hz, rad/s, rad/s^2.
 [[nodiscard]] Unit si_unit(Dimension dimension);
 
 /// The units of numbers that a case states without one, in which results are shown as well.

@@ -14,32 +14,51 @@ MovingModel<I>::MovingModel(const Problem& problem) : rates_(problem), bodies_(m
   if (bodies_.empty()) throw InputError("time: got a load without a mass, expected items of which one has some");
   const TimeText& text = problem.time.value();
   const auto add = [&](RateId id, const TimeText::Limit& limit) {
-    if (limit) limits_.push_back({id, evaluate_constant<I>(*limit)});
+    std::vector<Limit>& limits = id.kind == RateKind::kWinchPower ? powers_ : limits_;
+    if (limit) limits.push_back({id, evaluate_constant<I>(*limit)});
   };
   for (int cable = 0; cable < static_cast<int>(kCables); ++cable) {
     const auto i = static_cast<std::size_t>(cable);
     add({RateKind::kWinchSpeed, cable}, text.winch_speed_m_s[i]);
     add({RateKind::kWinchAcceleration, cable}, text.winch_acceleration_m_s2[i]);
+    add({RateKind::kWinchPower, cable}, text.winch_power_W[i]);
   }
+  if (text.stopping_time_s) slowing_ = I(1.0) / evaluate_constant<I>(*text.stopping_time_s);
   add({RateKind::kLoadSpeed}, text.load_speed_m_s);
   add({RateKind::kLoadAcceleration}, text.load_acceleration_m_s2);
   add({RateKind::kLoadAngularSpeed}, text.load_angular_speed_rad_s);
   add({RateKind::kLoadAngularAcceleration}, text.load_angular_acceleration_rad_s2);
 }
 
+namespace {
+
+/// Where the law is run as s = σ(τ(t)) with τ' in [0, 1] and |τ''| <= slowing: ṡ = σ' τ', s̈ = σ'' τ'² + σ' τ''.
 template <class I>
-Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range) const {
+LawRange<I> slowed(const LawRange<I>& law, const I& slowing) {
+  const I share = hull(I(0.0), I(1.0));
+  return {law.rate * share, law.acceleration * share + law.rate * hull(-slowing, slowing)};
+}
+
+}  // namespace
+
+template <class I>
+Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range, Speeds speeds) const {
   if (segment.timing == nullptr || !PathRatesModel<I>::knows(segment.law)) {
     throw std::logic_error("a segment without a time law, or of a law whose derivatives are not known");
   }
   const PathRates<I> path = rates_.at(segment, range);
-  const LawRange<I> law = law_range(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
+  LawRange<I> law = law_range(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
+  if (speeds == Speeds::kAny && slowing_) law = slowed(law, *slowing_);
   Moving<I> result;
   result.r_WP = path.r_WP;
   result.rates = by_time(path, law.rate, law.acceleration);
   result.wrench = inertial_wrench(bodies_, path.r_WP, result.rates);
+  const I one(1.0), none(0.0);
+  result.by_law = {inertial_wrench(bodies_, path.r_WP, by_time(path, none, one)),
+                   inertial_wrench(bodies_, path.r_WP, by_time(path, one, none)), law.acceleration, sqr(law.rate)};
 
   const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, result.rates);
+  result.winch_speed = winches.speed;
   const Vector3<I> arm = turned(path.r_WP, model.p_PM);
   const auto norm = [](const Vector3<I>& v) { return euclidean_norm(v(0), v(1), v(2)); };
   const auto rate = [&](const RateId& id) -> I {
@@ -50,12 +69,26 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
       case RateKind::kLoadSpeed: return norm(velocity_at(result.rates, arm));
       case RateKind::kLoadAcceleration: return norm(acceleration_at(result.rates, arm));
       case RateKind::kLoadAngularSpeed: return norm(result.rates.angular_velocity);
+      case RateKind::kWinchPower: throw std::logic_error("a power without a tension");
       case RateKind::kLoadAngularAcceleration: break;
     }
     return norm(result.rates.angular_acceleration);
   };
-  for (const Limit& limit : limits_) result.margins.push_back({limit.id, limit.most - rate(limit.id)});
+  for (const Limit& limit : limits_) {
+    const I size = rate(limit.id);
+    result.margins.push_back({limit.id, size, limit.most - size});
+  }
   return result;
+}
+
+template <class I>
+void MovingModel<I>::add_powers(const Moving<I>& moving, const std::array<I, kCables>& tension,
+                                std::vector<RateMargin<I>>& margins) const {
+  for (const Limit& limit : powers_) {
+    const auto i = static_cast<std::size_t>(limit.id.cable);
+    const I size = absolute(moving.winch_speed[i]) * absolute(tension[i]);
+    margins.push_back({limit.id, size, limit.most - size});
+  }
 }
 
 template <class I>

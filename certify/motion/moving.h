@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What time adds to a box: what the load's inertia asks of the cables, and how fast winches and load move.
 //
-// Over the part `range` of a segment, and over all times at which a move is there: enclosures of σ' and σ''
+// Over the part `range` of a segment, and over all times at which a move is there: enclosures of ṡ = σ' and s̈ = σ''
 // (law_range.h), with them of the platform's velocities and accelerations, and with these of w_in and of all rates
 // (kinematics/moving_load.h). Nothing here is a centred form: as boxes shrink, the enclosures do, in proportion.
+// Where a move may be slowed down, ṡ is any share of σ', and s̈ what that leaves of σ'' and a change of the share.
 // docs/theory.md, "Moves in time".
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "certify/arithmetic/interval.h"
@@ -19,18 +21,32 @@
 
 namespace taut {
 
-/// A limit of a rate, and how far below it the rate's magnitude is; over a box.
+/// A rate's magnitude, and how far below its limit that is; over a box.
 template <class I>
 struct RateMargin {
   RateId id;
+  I size;
   I value;
 };
+
+/// w_in = A s̈ + B ṡ², of which A and B depend on the place alone.
+template <class I>
+struct InertiaByLaw {
+  Vector6<I> a, b;
+  I acceleration;  ///< s̈ [1/s²]
+  I square;        ///< ṡ² [1/s²]
+};
+
+/// Which speeds are meant: those of the law, or all at which the move may be run.
+enum class Speeds { kOfLaw, kAny };
 
 /// Over a part of a segment.
 template <class I>
 struct Moving {
   Vector6<I> wrench;                   ///< w_in about P_m, axes of W [N, N m]
-  std::vector<RateMargin<I>> margins;  ///< of all limits that the problem states
+  InertiaByLaw<I> by_law;              ///< the same
+  std::vector<RateMargin<I>> margins;  ///< of all limits that the problem states, but for those of power
+  std::array<I, kCables> winch_speed;  ///< L̇ [m/s]
   Matrix3<I> r_WP;
   Rates<I> rates;
 };
@@ -43,10 +59,18 @@ class MovingModel {
   explicit MovingModel(const Problem& problem);
 
   /// @pre segment.timing, and PathRatesModel::knows(segment.law); the space has no constraints
-  [[nodiscard]] Moving<I> over(const Model<I>& model, const Segment& segment, const I& range) const;
+  [[nodiscard]] Moving<I> over(const Model<I>& model, const Segment& segment, const I& range,
+                               Speeds speeds = Speeds::kOfLaw) const;
+
+  /// Whether a move may be slowed down at any place.
+  [[nodiscard]] bool may_stop() const { return slowing_.has_value(); }
 
   /// How far w_in may be from that of an undisturbed machine, where the platform is turned by up to `turn`.
   [[nodiscard]] Vector6<I> change(const Moving<I>& undisturbed, const I& turn) const;
+
+  /// The limits of power that the problem states, where the greatest tensions of a box are `tension` [N].
+  void add_powers(const Moving<I>& moving, const std::array<I, kCables>& tension,
+                  std::vector<RateMargin<I>>& margins) const;
 
  private:
   struct Limit {
@@ -55,7 +79,8 @@ class MovingModel {
   };
   PathRatesModel<I> rates_;
   std::vector<MovingBody<I>> bodies_;
-  std::vector<Limit> limits_;
+  std::vector<Limit> limits_, powers_;
+  std::optional<I> slowing_;  ///< by which share of its speed a move may be slowed down, at most [1/s]
 };
 
 extern template class MovingModel<Interval>;

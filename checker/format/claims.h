@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 namespace taut::checker {
@@ -21,6 +22,47 @@ inline constexpr const char* kProvedClaim =
 inline constexpr const char* kItemsClause =
     " K is the sum of the items that the problem's load states, and of its ellipsoid where it states one: the wrenches "
     "about the load point that are a sum of one wrench of each.";
+
+/// Follows "proved", and the clause of items, where the path has a law in time.
+inline constexpr const char* kMoveClause =
+    " The path is a move: at each time t from 0 to the end of its law sigma the machine is commanded to be at the "
+    "point s of segment k, counted from 0, with k + s = sigma(t). All that is claimed holds at each of these times,"
+    " and there w - w_in takes the place of w in J f = w. w_in is the wrench about the load point that makes the "
+    "load's weights move with the platform, the force m a and the moment r x m a + H' of each: a is the "
+    "acceleration of its centre of gravity, r the vector from the load point to it, H' the rate of its angular "
+    "momentum about it. The claim holds for every mass m and every centre of gravity of a weight that the problem "
+    "allows; its mass is in that point or, where the problem states a box, fills the box evenly around it, with "
+    "sides along the axes of the platform. Nothing else has inertia. A machine that deviates has the velocity and "
+    "the acceleration of the platform's origin, and those of its rotation, that path and law command. The magnitude"
+    " of what the problem limits in time is below each such limit: the speed and the acceleration of a length d_i, "
+    "of the load point and of the rotation, as path and law command them of the machine as the problem states it; "
+    "and as power, that speed of d_i times the f_i of the same time, for every machine, load and pose within the "
+    "tolerances, every w and every w_in.";
+
+/// Follows kMoveClause where the problem states a stopping time.
+inline constexpr const char* kMayStopClause =
+    " The move may be run slower, and be slowed down, stopped and started again at any place: all this holds, too, if "
+    "sigma(tau(t)) takes the place of sigma(t), for every tau with a first derivative from 0 to 1 and a second one of "
+    "magnitude up to one divided by the stopping time that the problem states.";
+
+/// Follows "refuted", and the clause of items, where the path has a law in time.
+inline constexpr const char* kMoveRefutedClause =
+    " The path is a move: at each time t from 0 to the end of its law sigma the machine is commanded to be at the "
+    "point s of segment k, counted from 0, with k + s = sigma(t). At every time at which it is at the witness's "
+    "place of the path, w - w_in takes the place of w in J f = w, for some w and w_in of one load. w_in is the "
+    "wrench about the load point that makes the load's weights move with the platform, the force m a and the moment"
+    " r x m a + H' of each: a is the acceleration of its centre of gravity, r the vector from the load point to it,"
+    " H' the rate of its angular momentum about it. A weight has a mass m and a centre of gravity that the problem "
+    "allows; its mass is in that point or, where the problem states a box, fills the box evenly around it, with "
+    "sides along the axes of the platform. Nothing else has inertia. Or, where the witness is of a speed or an "
+    "acceleration, the magnitude of that of its length d_i, of the load point or of the rotation, as path and law "
+    "command it, is not below the limit that the problem states for it, at every such time; where it is of power, "
+    "that speed of d_i times f_i is not, for some w and w_in of one load. The machine is as the problem states it.";
+
+/// Follows "refuted", and the clause of items, where the problem states limits in time and the path has no law.
+inline constexpr const char* kAtRestClause =
+    " The platform is at rest at the witness pose: the path has no law in time, and nothing is claimed of limits of "
+    "speeds, accelerations and power.";
 
 /// Follows "proved" where the problem states bodies, before kBodiesClause.
 inline constexpr const char* kClearClause =
@@ -125,5 +167,33 @@ inline constexpr const char* kNoPathClaim =
 
 inline constexpr const char* kUndecidedClaim =
     "Nothing is claimed. The path was neither proved nor refuted; this does not mean that it is unsafe.";
+
+/// What the text of a claim depends on, beside the verdict.
+struct ClaimSubject {
+  bool has_items = false;                       ///< the load of the problem
+  bool has_time = false;                        ///< the problem: limits in time
+  bool is_move = false;                         ///< the path has a law in time
+  bool may_stop = false;                        ///< the problem: a stopping time
+  std::optional<std::array<bool, 4>> checks{};  ///< where the problem has bodies: which classes of pairs are checked
+  bool has_meshes = false, has_zones = false, has_exit_cones = false;  ///< the bodies; zones are `contacts`
+};
+
+/// The whole text of "proved" or "refuted".
+inline std::string claim_text(bool is_proved, const ClaimSubject& of) {
+  std::string claim = is_proved ? kProvedClaim : kRefutedClaim;
+  if (of.has_items) claim += kItemsClause;
+  if (of.is_move) {
+    claim += is_proved ? kMoveClause : kMoveRefutedClause;
+    if (is_proved && of.may_stop) claim += kMayStopClause;
+  } else if (of.has_time && !is_proved) {
+    claim += kAtRestClause;
+  }
+  if (!of.checks) return claim;
+  claim += bodies_clause(is_proved, *of.checks);
+  if (of.has_meshes) claim += kMeshClause;
+  if (of.has_zones) claim += kContactZonesClause;
+  if (of.has_exit_cones) claim += kExitConesClause;
+  return claim;
+}
 
 }  // namespace taut::checker

@@ -68,7 +68,13 @@ void require_name(const Cursor& json, const std::string& name) {
 void read_item(const Cursor& json, LoadItem& item, std::string& name) {
   const auto read_weight = [&](const Cursor& here) {
     Weight weight;
-    here.object("at_m", rational(item.at), "at_tolerance_m", rational(weight.offset), "mass_kg", ordered(weight.mass));
+    const auto read_box = [&](const Cursor& box) {
+      ExactVector& sides = weight.inertia_box.emplace();
+      rational(sides)(box);
+      for (std::size_t k = 0; k < sides.size(); ++k) box.at(k).require(sides[k] > 0, "a side > 0");
+    };
+    here.object("at_m", rational(item.at), "at_tolerance_m", rational(weight.offset), "inertia_box_m?", read_box,
+                "mass_kg", ordered(weight.mass));
     here["at_tolerance_m"].require(weight.offset >= 0, "a tolerance >= 0");
     here["mass_kg"].require(weight.mass.lower >= 0, "a mass >= 0");
     item.set = weight;
@@ -123,6 +129,16 @@ void read_load(const Cursor& json, Problem& problem) {
               has_items ? "items" : nullptr, read_items, has_ellipsoid ? "ellipsoid" : nullptr, read_ellipsoid,
               has_ellipsoid ? "ellipsoid_name?" : nullptr, read_name, has_ellipsoid ? "wrench" : nullptr,
               problem.wrench);
+}
+
+void require_no_inertia_box(const Cursor& json) {
+  if (!json.has("items")) return;
+  const Cursor items = json["items"];
+  items.elements([](const Cursor& item, std::size_t) {
+    if (!item.has("weight")) return;
+    const Cursor weight = item["weight"];
+    weight.require(!weight.has("inertia_box_m"), "no key 'inertia_box_m' in a problem without limits in time");
+  });
 }
 
 void require_no_tolerance_of_load(const Cursor& json, const ToleranceBounds& tolerances) {

@@ -204,6 +204,7 @@ NoPathCertificate read_no_path(Outline outline) {
     is_digest(sha256(json.json()))(top["problem_sha256"]);
     result.problem = read_problem(json);
     json.require(!result.problem.bodies || !result.problem.bodies->has_meshes(), "a problem without meshes");
+    json.require(!result.problem.time, "a problem without limits in time");
     exactly(result.problem.bodies ? kNoPathVersionWithBodies : kNoPathVersion)(top["version"]);
     exactly(no_path_claim(result.problem), "the text that belongs to the verdict")(top["claim"]);
   };

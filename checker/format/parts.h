@@ -17,6 +17,8 @@ void read(const Cursor& json, Limits& limits);
 void read(const Cursor& json, ToleranceBounds& tolerances);
 /// `problem.load`.
 void read_load(const Cursor& json, Problem& problem);
+/// Of a `load` that was read: no weight has `inertia_box_m`.
+void require_no_inertia_box(const Cursor& json);
 /// Load point and wrench have no tolerances, as items have their own.
 void require_no_tolerance_of_load(const Cursor& tolerances, const ToleranceBounds& bounds);
 /// `loads` of a witness: one for each item.
@@ -38,6 +40,9 @@ void read_pose_tube(const Cursor& json, Path& path);
 /// Of two successive tubes one contains the other. Otherwise the motion might change from one pose to another between
 /// them.
 [[nodiscard]] bool are_nested(const PoseTube& a, const PoseTube& b);
+
+/// `timing` of a path whose law and waypoints were read.
+void read_timing(const Cursor& json, const Problem& problem, Path& path);
 
 /// Appends an entry of `directions` to the path.
 void append_direction(const Cursor& json, Path& path);

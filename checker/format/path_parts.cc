@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "checker/format/expression_parser.h"
 #include "checker/format/parts.h"
 #include "checker/kernel/errors.h"
+#include "checker/kernel/moving.h"
 
 namespace taut::checker {
 namespace {
 
-constexpr std::size_t kPoseSize = 7;  ///< px, py, pz, qx, qy, qz, qw
+constexpr std::size_t kPoseSize = 7;              ///< px, py, pz, qx, qy, qz, qw
+constexpr std::size_t kMaxTimeControls = 20'000;  ///< bounds the work of a box
 
 auto quaternion(std::span<double> q) {
   return [q](const Cursor& json) {
@@ -184,10 +187,8 @@ void require_violation(const Cursor& json, const mpq_class& stated_limit, const 
   const Limits& limits = (is_tension ? problem.tension : problem.length)[witness.cable];
   const mpq_class& limit = is_minimum ? limits.lower : limits.upper;
   json["limit"].require(stated_limit == limit, "the cable's limit in the problem");
-  const Cursor value = json["value"];
-  value.require(witness.value_lower <= witness.value_upper, "ends in order");
-  value.require(is_minimum ? witness.value_upper <= limit : witness.value_lower >= limit,
-                "an enclosure that lies beyond the limit");
+  json["value"].require(is_minimum ? witness.value_upper <= limit : witness.value_lower >= limit,
+                        "an enclosure that lies beyond the limit");
 }
 
 }  // namespace
@@ -240,6 +241,25 @@ void read_pose_tube(const Cursor& json, Path& path) {
 
 bool are_nested(const PoseTube& a, const PoseTube& b) {
   return (a.position <= b.position && a.turn <= b.turn) || (a.position >= b.position && a.turn >= b.turn);
+}
+
+void read_timing(const Cursor& json, const Problem& problem, Path& path) {
+  TimeLaw law;
+  const auto read_controls = [&](const Cursor& controls) {
+    controls.require(controls.size() >= 4 && controls.size() <= kMaxTimeControls, "4 to 20000 control values");
+    read(controls, law.controls);
+  };
+  json.object("controls", read_controls, "step_s", law.step_s);
+  json.require(problem.time.has_value(), "no law in time where the problem has no limits in time");
+  json.require(path.law == Law::kStraight || path.law == Law::kCubicBSpline,
+               "no law in time but of a path that is straight, or a spline, in the parameters");
+  json.require(problem.constraints.empty(), "no law in time where there are constraints");
+  path.timing = std::move(law);
+  try {
+    require_time_law(problem, path);
+  } catch (const Rejected& why) {
+    json.fail(std::string("a law of a move along the path, not ") + why.what());
+  }
 }
 
 void read_margins(const Cursor& json, const Problem& problem, Margins& margins) {
@@ -310,16 +330,52 @@ void read_contact(const Cursor& json, const Problem& problem, const Path& path, 
   json.require(json.has("elements") == has_mesh, "the key 'elements' where a body of the pair is a mesh");
 }
 
+auto read_value_of(Witness& witness) {
+  return [&witness](const Cursor& value) {
+    std::array<mpq_class, 2> ends;
+    read(value, ends);
+    value.require(ends[0] <= ends[1], "ends in order");
+    witness.value_lower = ends[0];
+    witness.value_upper = ends[1];
+  };
+}
+
+/// The rest of a witness that a limit in time is not kept. That the value lies beyond it is proved by others.
+template <class ReadMotion>
+void read_rate(const Cursor& json, RateKind rate, const Problem& problem, const Path& path,
+               const ReadMotion& read_motion, Witness& witness) {
+  json["kind"].require(path.timing.has_value(), "no limit in time where the path has no law in time");
+  const auto ignore = [](const Cursor&) {};
+  const auto read_cable = [&](const Cursor& cable) {
+    if (!is_of_winch(rate)) return cable.require(cable.is_null(), "null of what is not of a winch");
+    witness.cable = static_cast<std::size_t>(cable.integer(1, kCables)) - 1;
+  };
+  json.object("kind", ignore, "cable", read_cable, "limit", ignore, "value", read_value_of(witness), "at",
+              witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, unknowns(problem, path)),
+              "motion", read_motion);
+  const std::optional<Expression>& limit = problem.time->of(rate, witness.cable);
+  json["kind"].require(limit.has_value(), "a limit that the problem states");
+  const Cursor stated = json["limit"];
+  stated.require(parse_expression(stated.text(), {}, stated.where()) == *limit, "the limit in the problem");
+}
+
 }  // namespace
 
 Witness read_witness(const Cursor& json, const Problem& problem, const Path& path) {
-  static constexpr std::array<std::pair<const char*, WitnessKind>, 6> kKinds = {
+  static constexpr std::array<std::pair<const char*, WitnessKind>, 13> kKinds = {
       {{"tension_min", WitnessKind::kTensionMin},
        {"tension_max", WitnessKind::kTensionMax},
        {"length_min", WitnessKind::kLengthMin},
        {"length_max", WitnessKind::kLengthMax},
        {"singular", WitnessKind::kSingular},
-       {"contact", WitnessKind::kContact}}};
+       {"contact", WitnessKind::kContact},
+       {"winch_speed", WitnessKind::kWinchSpeed},
+       {"winch_acceleration", WitnessKind::kWinchAcceleration},
+       {"winch_power", WitnessKind::kWinchPower},
+       {"load_speed", WitnessKind::kLoadSpeed},
+       {"load_acceleration", WitnessKind::kLoadAcceleration},
+       {"load_angular_speed", WitnessKind::kLoadAngularSpeed},
+       {"load_angular_acceleration", WitnessKind::kLoadAngularAcceleration}}};
   json.require(json.has("kind"), "an object with the key 'kind'");
   Witness witness;
   witness.kind = json["kind"].one_of<WitnessKind>(kKinds, "a kind of the format");
@@ -342,23 +398,23 @@ Witness read_witness(const Cursor& json, const Problem& problem, const Path& pat
     read_contact(json, problem, path, read_motion, witness);
     return witness;
   }
+  if (const std::optional<RateKind> rate = rate_of(witness.kind)) {
+    read_rate(json, *rate, problem, path, read_motion, witness);
+    return witness;
+  }
   mpq_class limit;
-  const auto read_value = [&](const Cursor& value) {
-    std::array<mpq_class, 2> ends;
-    read(value, ends);
-    witness.value_lower = ends[0];
-    witness.value_upper = ends[1];
-  };
   const auto read_deviating = [&](const Cursor& deviation) {
     deviation.require(problem.tolerances.has_value(), "tolerances to be within");
     witness.deviation = read_deviation(deviation, is_length_controlled(problem, path));
   };
   const bool is_tension = witness.kind == WitnessKind::kTensionMin || witness.kind == WitnessKind::kTensionMax;
-  const char* const loads_key = is_tension && !problem.items.empty() ? "loads?" : nullptr;
+  const bool is_at_rest = !path.timing;
+  const char* const loads_key = is_tension && !problem.items.empty() && is_at_rest ? "loads?" : nullptr;
   const auto read_witness_loads = [&](const Cursor& loads) { witness.loads = read_loads(loads, problem.items); };
-  json.object("kind", ignore, "cable", integer(witness.cable, 1, kCables), "limit", limit, "value", read_value, "at",
-              witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, n), "motion", read_motion,
-              "deviation?", read_deviating, loads_key, read_witness_loads);
+  json.object("kind", ignore, "cable", integer(witness.cable, 1, kCables), "limit", limit, "value",
+              read_value_of(witness), "at", witness_point(witness.at, path), "proof",
+              proof(witness.at_box, witness.at, n), "motion", read_motion, is_at_rest ? "deviation?" : nullptr,
+              read_deviating, loads_key, read_witness_loads);
   --witness.cable;
   require_violation(json, limit, problem, witness);
   return witness;

@@ -43,6 +43,43 @@ void read_angle(const Cursor& json, Expression& angle) {
   }
 }
 
+/// A constant expression whose value is certainly above 0.
+void read_limit_in_time(const Cursor& json, std::optional<Expression>& limit) {
+  constexpr const char* kExpected = "a limit above 0";
+  constant(limit.emplace())(json);
+  try {
+    const WorkingPrecision precision(128);
+    json.require(certainly_positive(limit->evaluate<MeanValueForm>({}).range()), kExpected);
+  } catch (const Undefined& why) {
+    json.fail(std::string(kExpected) + ", not " + why.what());
+  }
+}
+
+/// Of each cable, null where it has none.
+void read_limits_in_time(const Cursor& json, std::array<std::optional<Expression>, kCables>& limits) {
+  json.require_size(kCables);
+  json.elements([&](const Cursor& here, std::size_t i) {
+    if (!here.is_null()) read_limit_in_time(here, limits[i]);
+  });
+  json.require(std::ranges::any_of(limits, [](const auto& limit) { return limit.has_value(); }),
+               "a limit of some cable");
+}
+
+void read_time(const Cursor& json, TimeLimits& limits) {
+  const auto of_load = [](std::optional<Expression>& limit) {
+    return [&limit](const Cursor& here) { read_limit_in_time(here, limit); };
+  };
+  const auto of_winches = [](std::array<std::optional<Expression>, kCables>& of_each) {
+    return [&of_each](const Cursor& here) { read_limits_in_time(here, of_each); };
+  };
+  json.object("load_acceleration_m_s2?", of_load(limits.load_acceleration), "load_angular_acceleration_rad_s2?",
+              of_load(limits.load_angular_acceleration), "load_angular_speed_rad_s?",
+              of_load(limits.load_angular_speed), "load_speed_m_s?", of_load(limits.load_speed), "stopping_time_s?",
+              of_load(limits.stopping_time), "winch_acceleration_m_s2?", of_winches(limits.winch_acceleration),
+              "winch_power_W?", of_winches(limits.winch_power), "winch_speed_m_s?", of_winches(limits.winch_speed));
+  json.require(json.json().size() > (limits.stopping_time ? 1 : 0), "at least one limit");
+}
+
 void require_tolerance(const Cursor& json, const mpq_class& x) { json.require(x >= 0, "a tolerance >= 0"); }
 void require_tolerance(const Cursor& json, const std::array<mpq_class, kCables>& x) {
   for (std::size_t i = 0; i < kCables; ++i) require_tolerance(json.at(i), x[i]);
@@ -211,7 +248,9 @@ Problem read_problem(const Cursor& json) {
       "bodies?", [&](const Cursor& bodies) { read(bodies, problem.bodies.emplace()); }, "name", name, "robot",
       read_robot, "load", [&](const Cursor& load) { read_load(load, problem); }, "tolerances", problem.tolerances,
       "space", [&](const Cursor& space) { read_space(space, problem); }, "query",
-      [&](const Cursor& query) { read_query(query, problem); });
+      [&](const Cursor& query) { read_query(query, problem); }, "time?",
+      [&](const Cursor& time) { read_time(time, problem.time.emplace()); });
+  if (!problem.time) require_no_inertia_box(json["load"]);
   if (problem.tolerances && !problem.items.empty()) {
     require_no_tolerance_of_load(json["tolerances"], *problem.tolerances);
   }

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::int64_t kVersion = 4;            ///< of the format
 constexpr std::int64_t kVersionWithBodies = 5;  ///< where the problem states bodies
+constexpr std::int64_t kVersionInTime = 6;      ///< where it states limits in time, with bodies or without
 constexpr std::array<const char*, 4> kMarginKeys = {"tension_N", "length_m", "wrench_scale", "clearance_m"};
 
 std::array<const mpq_class*, 4> values_of(const Margins& margins) {
@@ -79,16 +80,18 @@ class Reader {
     const Json& json = outline_.json;
     if (!json.is_object() || json.value("format", Json()) != "taut-certificate") return;
     const Json version = json.value("version", Json());
-    if (!version.is_number_integer() || version == kVersion || version == kVersionWithBodies) return;
-    top_["version"].fail(std::to_string(kVersion) + " or " + std::to_string(kVersionWithBodies) + ", got " +
-                         version.dump() + ": only the taut-check that came with the taut that made it can check it");
+    if (!version.is_number_integer() || (version >= kVersion && version <= kVersionInTime)) return;
+    top_["version"].fail(std::to_string(kVersion) + ", " + std::to_string(kVersionWithBodies) + " or " +
+                         std::to_string(kVersionInTime) + ", got " + version.dump() +
+                         ": only the taut-check that came with the taut that made it can check it");
   }
 
   void read_generator(const Cursor& json) { json.require(json.json().is_object(), "an object"); }
   void read_problem_and_digest(const Cursor& json) {
     is_digest(sha256(json.json()))(top_["problem_sha256"]);
     result_.problem = read_problem(json);
-    exactly(result_.problem.bodies ? kVersionWithBodies : kVersion)(top_["version"]);
+    const Problem& problem = result_.problem;
+    exactly(problem.time ? kVersionInTime : problem.bodies ? kVersionWithBodies : kVersion)(top_["version"]);
     require_claim();
   }
   void read_signature(const Cursor& json) { result_.signer = verify_signature(json, outline_.body_sha256); }
@@ -126,7 +129,7 @@ class Reader {
     json.object(
         problem.bodies ? "directions" : nullptr, is_list, "interpolation",
         [&](const Cursor& law) { path.law = law.one_of<Law>(kLaws, "a law of the format"); }, "pose_tubes", is_list,
-        "times", is_list_or_null, "tubes", is_list, "waypoints", is_list);
+        "times", is_list_or_null, "timing?", [](const Cursor& /*timing*/) {}, "tubes", is_list, "waypoints", is_list);
     path.waypoints.reserve(objects_in("waypoints"));
     for_each("waypoints", "path.waypoints", [&](const Cursor& here, std::string_view /*text*/) {
       path.waypoints.push_back(read_waypoint(here, path.law));
@@ -141,6 +144,9 @@ class Reader {
     const std::size_t segments = std::max(path.segments(), std::min<std::size_t>(waypoints, 1));
     require_size(json["tubes"], path.tubes.size(), problem.constraints.empty() ? 0 : segments);
     require_size(json["pose_tubes"], path.pose_tubes.size(), path.law == Law::kCableLengths ? segments : 0);
+    if (json.has("timing")) read_timing(json["timing"], problem, path);
+    const bool may_be_at_rest = !problem.time || result_.verdict != Verdict::kProved;
+    json.require(path.timing || may_be_at_rest, "the key 'timing' of a proved move");
     if (!has_poses(path.law)) return;
     const Cursor of_case = top_["problem"];
     if (!problem.query.empty()) {
@@ -212,21 +218,26 @@ class Reader {
   }
 
   void require_claim() const {
-    constexpr std::array<const char*, 3> kClaims = {kProvedClaim, kRefutedClaim, kUndecidedClaim};
-    std::string claim = kClaims[static_cast<std::size_t>(result_.verdict)];
-    if (result_.verdict != Verdict::kUndecided && !result_.problem.items.empty()) claim += kItemsClause;
-    if (result_.verdict != Verdict::kUndecided && result_.problem.bodies) {
-      claim += bodies_clause(result_.verdict == Verdict::kProved, result_.problem.bodies->checks);
-      if (result_.problem.bodies->has_meshes()) claim += kMeshClause;
-      if (result_.problem.bodies->has_zones()) claim += kContactZonesClause;
-      if (!result_.problem.bodies->exit_cones.empty()) claim += kExitConesClause;
+    const Problem& problem = result_.problem;
+    ClaimSubject subject{.has_items = !problem.items.empty(),
+                         .has_time = problem.time.has_value(),
+                         .is_move = top_["path"].has("timing"),
+                         .may_stop = problem.time && problem.time->stopping_time};
+    if (problem.bodies) {
+      subject.checks = problem.bodies->checks;
+      subject.has_meshes = problem.bodies->has_meshes();
+      subject.has_zones = problem.bodies->has_zones();
+      subject.has_exit_cones = !problem.bodies->exit_cones.empty();
     }
+    const bool is_undecided = result_.verdict == Verdict::kUndecided;
+    const std::string claim = is_undecided ? kUndecidedClaim : claim_text(result_.verdict == Verdict::kProved, subject);
     exactly(claim, "the text that belongs to the verdict")(top_["claim"]);
   }
 
   void read_stretches(const Cursor& json) {
     if (json.is_null()) return;
     (void)json.size();
+    json.require(!result_.problem.time, "null where the problem has limits in time");
     const bool is_audit = result_.problem.query.empty();
     json.require(is_audit && result_.verdict != Verdict::kProved, is_audit ? "null" : "null where nothing was audited");
     for_each("stretches", "stretches", [&](const Cursor& here, std::string_view text) {

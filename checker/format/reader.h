@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads a certificate and checks its form: docs/certificate-format.md, versions 4 and 5. Proves nothing about the
+// Reads a certificate and checks its form: docs/certificate-format.md, versions 4 to 6. Proves nothing about the
 // robot.
 #pragma once
 

@@ -37,7 +37,42 @@ struct MotionBox {
   Box box;
 };
 
-enum class WitnessKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax, kSingular, kContact };
+enum class WitnessKind {
+  kTensionMin,
+  kTensionMax,
+  kLengthMin,
+  kLengthMax,
+  kSingular,
+  kContact,
+  // Of a move:
+  kWinchSpeed,
+  kWinchAcceleration,
+  kWinchPower,
+  kLoadSpeed,
+  kLoadAcceleration,
+  kLoadAngularSpeed,
+  kLoadAngularAcceleration,
+};
+
+/// What is too large, if the limit is one in time.
+[[nodiscard]] inline std::optional<RateKind> rate_of(WitnessKind kind) {
+  switch (kind) {
+    case WitnessKind::kTensionMin:
+    case WitnessKind::kTensionMax:
+    case WitnessKind::kLengthMin:
+    case WitnessKind::kLengthMax:
+    case WitnessKind::kSingular:
+    case WitnessKind::kContact: return std::nullopt;
+    case WitnessKind::kWinchSpeed: return RateKind::kWinchSpeed;
+    case WitnessKind::kWinchAcceleration: return RateKind::kWinchAcceleration;
+    case WitnessKind::kWinchPower: return RateKind::kWinchPower;
+    case WitnessKind::kLoadSpeed: return RateKind::kLoadSpeed;
+    case WitnessKind::kLoadAcceleration: return RateKind::kLoadAcceleration;
+    case WitnessKind::kLoadAngularSpeed: return RateKind::kLoadAngularSpeed;
+    case WitnessKind::kLoadAngularAcceleration: break;
+  }
+  return RateKind::kLoadAngularAcceleration;
+}
 
 struct Witness {
   WitnessKind kind = WitnessKind::kSingular;
@@ -50,11 +85,11 @@ struct Witness {
   ContactElements elements;
   std::optional<std::size_t> inside;  ///< the body, 0 or 1, of which the other's point is inside: then it has no point
   mpq_class depth;                    ///< >= 0: by how much they are nearer than is allowed, at least [m]
-  std::size_t cable = 0;              ///< 0 to 5; of limits only, as what follows but for `motion`
+  std::size_t cable = 0;              ///< 0 to 5; of limits only, as what follows but for `motion`; of the load 0
   mpq_class value_lower;
   mpq_class value_upper;
-  std::optional<WitnessDeviation> deviation;
-  std::optional<std::vector<LoadChoice>> loads;  ///< one an item, of its kind; of a tension only
+  std::optional<WitnessDeviation> deviation;     ///< not of a move
+  std::optional<std::vector<LoadChoice>> loads;  ///< one an item, of its kind; of a tension only, and not of a move
   /// Connects the witness: for kSingular the boxes over which the path is shown to be continuous between `at` and
   /// `to`; where the motion is implied, for the witness of the certificate, boxes that with the proved ones cover the
   /// path from its beginning to the witness.

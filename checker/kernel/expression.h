@@ -22,9 +22,11 @@ struct Expression {
     int a = -1;  ///< index of the first operand
     int b = -1;  ///< index of the second operand
     Function function = Function::kSqrt;
+    bool operator==(const Node&) const = default;
   };
   std::vector<Node> nodes;
   std::vector<mpq_class> numbers;
+  bool operator==(const Expression&) const = default;  ///< of the form: the same operations on the same numbers
 
   /// Encloses the value at `parameters`. @throws Undefined where the value may be undefined or, unless all operands
   /// are constant, not differentiable.

@@ -44,12 +44,8 @@ std::size_t last_before(std::size_t n, const Predicate& is_before) {
   return from;
 }
 
-struct LawRange {
-  Ball rate, acceleration;  ///< σ' [1/s], σ'' [1/s^2]
-};
-
-/// Over all times at which σ is in [a, b].
-LawRange law_range(const TimeLaw& text, const mpq_class& a, const mpq_class& b) {
+/// σ' and σ'' over all times at which σ is in [a, b].
+Speed law_range(const TimeLaw& text, const mpq_class& a, const mpq_class& b) {
   constexpr int kHalvings = 16;  // of a piece
   const PiecewiseLaw law(text);
   const std::size_t n = law.pieces();
@@ -65,7 +61,7 @@ LawRange law_range(const TimeLaw& text, const mpq_class& a, const mpq_class& b) 
     if (at(first_piece, u1 + by) < a) u1 += by;
     if (at(last_piece, u2 - by) > b) u2 -= by;
   }
-  LawRange result;
+  Speed result;
   for (std::size_t k = first; k <= last; ++k) {
     Box part;
     part.begin = k == first ? u1 : mpq_class(0);
@@ -74,13 +70,14 @@ LawRange law_range(const TimeLaw& text, const mpq_class& a, const mpq_class& b) 
     const Ball rate = form(over(derivative(p), part)).range();
     const Ball acceleration = form(over(derivative(derivative(p)), part)).range();
     if (k == first) {
-      result = {rate, acceleration};
+      result = {rate, acceleration, {}};
     } else {
-      result = {hull(result.rate, rate), hull(result.acceleration, acceleration)};
+      result = {hull(result.rate, rate), hull(result.acceleration, acceleration), {}};
     }
   }
   const Ball step(text.step_s);
-  return {result.rate / step, result.acceleration / sqr(step)};
+  const Ball rate = result.rate / step;
+  return {rate, result.acceleration / sqr(step), rate};
 }
 
 // ---- The platform ---------------------------------------------------------------------------------------------------
@@ -121,7 +118,7 @@ Vector3<Ball> axis_of(const Matrix3<Ball>& M) {
 
 class Rates {
  public:
-  Rates(FrameJet frame, LawRange law) : frame_(std::move(frame)), law_(std::move(law)) {
+  Rates(FrameJet frame, Speed law) : frame_(std::move(frame)), law_(std::move(law)) {
     R = map(frame_.R, &SecondJet::value);
     const Matrix3<Ball> back = transposed(R);
     const Vector3<Ball> w = axis_of(multiply(map(frame_.R, &SecondJet::first), back));
@@ -134,6 +131,7 @@ class Rates {
 
   [[nodiscard]] Vector3<SecondJet> point(const Vector3<Ball>& x) const { return frame_.p + multiply(frame_.R, x); }
   [[nodiscard]] Ball speed(const SecondJet& x) const { return x.first * law_.rate; }
+  [[nodiscard]] Ball fastest(const SecondJet& x) const { return x.first * law_.fastest; }
   [[nodiscard]] Ball acceleration(const SecondJet& x) const {
     return x.second * sqr(law_.rate) + x.first * law_.acceleration;
   }
@@ -149,7 +147,7 @@ class Rates {
 
  private:
   FrameJet frame_;
-  LawRange law_;
+  Speed law_;
 };
 
 // ---- Inertia --------------------------------------------------------------------------------------------------------
@@ -218,22 +216,44 @@ void require_time_law(const Problem& problem, const Path& path) {
   }
 }
 
-Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box) {
+Ball rate_limit(const Problem& problem, RateKind kind, std::size_t cable) {
+  return problem.time.value().of(kind, cable).value().evaluate<MeanValueForm>({}).range();
+}
+
+Speed speed_by_law(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
   if (!path.timing || !problem.time || has_poses(path.law) || !problem.constraints.empty()) {
     throw std::logic_error("a move whose rates are not known");
   }
-  const mpq_class begin = k + box.begin, end = k + box.end;
-  const Rates rates(frame_over(problem, path, k, box), law_range(*path.timing, begin, end));
+  return law_range(*path.timing, k + box.begin, k + box.end);
+}
+
+std::vector<Speed> extreme_speeds(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
+  const Speed law = speed_by_law(problem, path, k, box);
+  if (!problem.time->stopping_time) return {law};
+  const Ball fastest = magnitude(law.rate);
+  const Ball by_slowing = magnitude(fastest / problem.time->stopping_time->evaluate<MeanValueForm>({}).range());
+  const Ball of_law = hull(Ball(), law.acceleration);
+  std::vector<Speed> corners;
+  for (const Ball& rate : {Ball(), fastest}) {
+    corners.push_back({rate, lowest(of_law) - by_slowing, fastest});
+    corners.push_back({rate, highest(of_law) + by_slowing, fastest});
+  }
+  return corners;
+}
+
+Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
+              const Speed& speed) {
+  const Rates rates(frame_over(problem, path, k, box), speed);
   Moving result;
   for (const LoadItem& item : problem.items) {
     if (const auto* weight = std::get_if<Weight>(&item.set)) add_weight(*weight, item, machine, rates, result);
   }
 
-  const auto add = [&](RateKind kind, std::size_t cable, const std::optional<Expression>& limit, const auto& rate) {
-    if (!limit) return;
-    result.margins.push_back({kind, cable, limit->evaluate<MeanValueForm>({}).range() - rate()});
+  const auto add = [&](RateKind kind, std::size_t cable, const auto& magnitude_of_rate) {
+    if (!problem.time->of(kind, cable)) return;
+    const Ball rate = magnitude_of_rate();
+    result.margins.push_back({kind, cable, rate, rate_limit(problem, kind, cable) - rate});
   };
-  const TimeLimits& limits = *problem.time;
   for (std::size_t i = 0; i < kCables; ++i) {
     const auto length = [&] {
       Vector3<SecondJet> d = rates.point(machine.platform[i]);
@@ -241,17 +261,15 @@ Moving moving(const Machine& machine, const Problem& problem, const Path& path, 
       return apply(Function::kSqrt, squared_norm(d));
     };
     const auto size = [](const Ball& x) { return hull(least_magnitude(x), magnitude(x)); };
-    add(RateKind::kWinchSpeed, i, limits.winch_speed[i], [&] { return size(rates.speed(length())); });
-    add(RateKind::kWinchAcceleration, i, limits.winch_acceleration[i],
-        [&] { return size(rates.acceleration(length())); });
+    add(RateKind::kWinchSpeed, i, [&] { return size(rates.speed(length())); });
+    add(RateKind::kWinchAcceleration, i, [&] { return size(rates.acceleration(length())); });
+    if (problem.time->winch_power[i]) result.winch_speed[i] = size(rates.fastest(length()));
   }
   const Vector3<SecondJet> load_point = rates.point(machine.load_point);
-  add(RateKind::kLoadSpeed, 0, limits.load_speed, [&] { return length_range(rates.velocity(load_point)); });
-  add(RateKind::kLoadAcceleration, 0, limits.load_acceleration,
-      [&] { return length_range(rates.acceleration(load_point)); });
-  add(RateKind::kLoadAngularSpeed, 0, limits.load_angular_speed, [&] { return length_range(rates.spin); });
-  add(RateKind::kLoadAngularAcceleration, 0, limits.load_angular_acceleration,
-      [&] { return length_range(rates.spin_change); });
+  add(RateKind::kLoadSpeed, 0, [&] { return length_range(rates.velocity(load_point)); });
+  add(RateKind::kLoadAcceleration, 0, [&] { return length_range(rates.acceleration(load_point)); });
+  add(RateKind::kLoadAngularSpeed, 0, [&] { return length_range(rates.spin); });
+  add(RateKind::kLoadAngularAcceleration, 0, [&] { return length_range(rates.spin_change); });
   return result;
 }
 

@@ -11,6 +11,13 @@
 // second term is symmetric,
 //     velocity  X' σ',    acceleration  X'' σ'^2 + X' σ''   of a point X(s) = p + R x, and of a length |d_i|,
 //     ω = w σ',           ω' = w' σ'^2 + w σ''              (by time).
+// A winch's power is the greatest tension of its cable, of every load and deviation, times that speed of |d_i|, whose
+// magnitude counts: hoisting and lowering alike.
+// Where the problem states a stopping time T, the move may be run as z = σ(τ(t)), too, with τ' from 0 to 1 and |τ''| <=
+// 1/T. So ż = σ' τ', and z̈ = σ'' τ'^2 + σ' τ''. At one place all accelerations, w_in and hence every tension are affine
+// in (z̈, ż^2), speeds linear in ż, and the pairs (z̈, ż^2) lie in a rectangle that holds for the whole box: what keeps
+// its limits at its four corners keeps them inside, as limits are intervals and magnitudes convex.
+//
 // Bodies of the load, each of mass m with its centre of gravity c and with a diagonal inertia I about it in the axes of
 // P, take from what acts from outside the wrench about P_m
 //     w_in = sum of ( m a_c ; R (c - p_m) x m a_c + R I R^T ω' + ω x R I R^T ω ).
@@ -24,37 +31,52 @@
 
 namespace taut::checker {
 
-/// What a stated limit is of.
-enum class RateKind {
-  kWinchSpeed,
-  kWinchAcceleration,
-  kLoadSpeed,
-  kLoadAcceleration,
-  kLoadAngularSpeed,
-  kLoadAngularAcceleration
-};
-
-/// A limit less a rate's magnitude, for every time at which the move is on the box.
+/// Of every time at which the move is on the box.
 struct RateMargin {
   RateKind kind = RateKind::kWinchSpeed;
   std::size_t cable = 0;  ///< of winches
-  Ball value;
+  Ball rate;              ///< its magnitude
+  Ball value;             ///< the limit less that
+};
+
+/// How fast z changes over a box.
+struct Speed {
+  Ball rate;          ///< ż [1/s]
+  Ball acceleration;  ///< z̈ [1/s^2]
+  Ball fastest;       ///< the greatest ż that the move may have there
 };
 
 struct Moving {
   Vector6<Ball> inertia;            ///< w_in of the commanded motion [N, N m]
   Vector6<Ball> change_by_turn;     ///< bounds of how much a turn by t <= 1 may change it, over t
-  std::vector<RateMargin> margins;  ///< of each stated limit
+  std::vector<RateMargin> margins;  ///< of each stated limit but those of power, for which tensions are needed
+  /// Where that cable's power is limited: the magnitude of the rate of |d_i| when the move is fastest.
+  std::array<Ball, kCables> winch_speed;
+  /// What acts beside the items and the ellipsoid's spread: w0 less w_in.
+  [[nodiscard]] Vector6<Ball> beside(const Machine& machine) const {
+    Vector6<Ball> result = machine.wrench;
+    for (std::size_t i = 0; i < 6; ++i) result[i] -= inertia[i];
+    return result;
+  }
 };
+
+/// A stated limit. @pre the problem states it @param cable  of winches
+[[nodiscard]] Ball rate_limit(const Problem& problem, RateKind kind, std::size_t cable);
 
 /// Asks of a path's law all that is said above: four control values or more, a step above 0, and that the move begins
 /// and ends at rest and rests at every corner. Three control values are equal where it rests, so that σ' = σ'' = 0
 /// wherever σ is that number, or, at the ends of a spline, three control points are. @pre path.timing @throws Rejected
 void require_time_law(const Problem& problem, const Path& path);
 
-/// Over a box of segment k, at every time at which the move is there. @throws Undefined where that is not proved.
-/// @pre require_time_law(), and the problem has limits in time
+/// Over a box of segment k, at every time at which the move is there, run as its law says. @throws Undefined where that
+/// is not proved. @pre require_time_law(), and the problem has limits in time
+[[nodiscard]] Speed speed_by_law(const Problem& problem, const Path& path, std::size_t k, const Box& box);
+/// The corners of all speeds at which the move may be run there; speed_by_law() where the problem states no stopping
+/// time.
+[[nodiscard]] std::vector<Speed> extreme_speeds(const Problem& problem, const Path& path, std::size_t k,
+                                                const Box& box);
+/// What holds at such a speed. @throws, @pre likewise
 [[nodiscard]] Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                            const Box& box);
+                            const Box& box, const Speed& speed);
 
 }  // namespace taut::checker

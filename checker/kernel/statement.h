@@ -219,11 +219,42 @@ using ContactWeights = std::array<std::vector<mpq_class>, 2>;
 /// Which element, of each of two bodies that is a mesh.
 using ContactElements = std::array<std::optional<std::size_t>, 2>;
 
-/// Limits of what a move does in time: constants, if they are stated. Speeds [m/s, rad/s] and accelerations [m/s^2,
-/// rad/s^2] of the commanded lengths |d_i|, of the load point, and of the platform's rotation.
+/// What a limit of a move is of: the magnitude of a rate.
+enum class RateKind {
+  kWinchSpeed,
+  kWinchAcceleration,
+  kWinchPower,
+  kLoadSpeed,
+  kLoadAcceleration,
+  kLoadAngularSpeed,
+  kLoadAngularAcceleration
+};
+/// Whether there is one for each cable.
+inline bool is_of_winch(RateKind kind) {
+  return kind == RateKind::kWinchSpeed || kind == RateKind::kWinchAcceleration || kind == RateKind::kWinchPower;
+}
+
+/// Limits of what a move does in time: constants above 0, if they are stated. Speeds [m/s, rad/s] and accelerations
+/// [m/s^2, rad/s^2] of the commanded lengths |d_i|, of the load point, and of the platform's rotation.
 struct TimeLimits {
   std::array<std::optional<Expression>, kCables> winch_speed, winch_acceleration;
+  std::array<std::optional<Expression>, kCables> winch_power;  ///< of a cable's greatest tension times its speed [W]
   std::optional<Expression> load_speed, load_acceleration, load_angular_speed, load_angular_acceleration;
+  std::optional<Expression> stopping_time;  ///< above 0; no limit of a rate, see moving.h [s]
+
+  /// @param cable  of winches
+  [[nodiscard]] const std::optional<Expression>& of(RateKind kind, std::size_t cable) const {
+    switch (kind) {
+      case RateKind::kWinchSpeed: return winch_speed.at(cable);
+      case RateKind::kWinchAcceleration: return winch_acceleration.at(cable);
+      case RateKind::kWinchPower: return winch_power.at(cable);
+      case RateKind::kLoadSpeed: return load_speed;
+      case RateKind::kLoadAcceleration: return load_acceleration;
+      case RateKind::kLoadAngularSpeed: return load_angular_speed;
+      case RateKind::kLoadAngularAcceleration: break;
+    }
+    return load_angular_acceleration;
+  }
 };
 
 /// K is the sum of the items and of the ellipsoid { w0 + e : e' E e <= 1 }. Where there are items, load point and

@@ -34,6 +34,13 @@ def bodies_clause(verdict, bodies):
         (text_of('kExitConesClause') if 'exit_cones' in bodies else ''))
 
 
+def time_clause(verdict, has_law, may_stop):
+    """What follows a claim where the problem has limits in time."""
+    if verdict == 'proved':
+        return (text_of('kMoveClause') + (text_of('kMayStopClause') if may_stop else '')) if has_law else ''
+    return text_of('kMoveRefutedClause' if has_law else 'kAtRestClause')
+
+
 CLAIMS = claims()
 ITEMS_CLAUSE = text_of('kItemsClause')
 
@@ -68,6 +75,8 @@ def seal(certificate, keep=()):
     if 'claim' not in keep:
         has_items = c['verdict'] != 'undecided' and 'items' in c['problem']['load']
         c['claim'] = CLAIMS[c['verdict']] + (ITEMS_CLAUSE if has_items else '')
+        if c['verdict'] != 'undecided' and 'time' in c['problem']:
+            c['claim'] += time_clause(c['verdict'], 'timing' in c['path'], 'stopping_time_s' in c['problem']['time'])
         bodies = c['problem'].get('bodies')
         if c['verdict'] != 'undecided' and isinstance(bodies, dict) and isinstance(bodies.get('clearance_m'), dict):
             c['claim'] += bodies_clause(c['verdict'], bodies)

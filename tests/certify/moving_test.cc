@@ -57,6 +57,7 @@ std::map<std::string, BigFloat> slacks(const Problem& problem, const Truth& x) {
     result["tension_max" + cable] = oracle::big(upper) - x.high[i];
     add("winch speed" + cable, x.winch_speed[i], problem.time->winch_speed_m_s[i]);
     add("winch acceleration" + cable, x.winch_acceleration[i], problem.time->winch_acceleration_m_s2[i]);
+    add("winch power" + cable, x.high[i] * x.winch_speed[i], problem.time->winch_power_W[i]);
   }
   add("speed", x.speed, problem.time->load_speed_m_s);
   add("acceleration", x.acceleration, problem.time->load_acceleration_m_s2);
@@ -69,6 +70,7 @@ std::string limit_of(const SegmentWitness& witness) {
   switch (witness.rate->kind) {
     case RateKind::kWinchSpeed: return "winch speed" + cable;
     case RateKind::kWinchAcceleration: return "winch acceleration" + cable;
+    case RateKind::kWinchPower: return "winch power" + cable;
     case RateKind::kLoadSpeed: return "speed";
     default: return "acceleration";
   }
@@ -94,6 +96,7 @@ TEST(Moving, ProofsAndRefutationsAgreeWithNewtonAndEuler) {
       for (std::size_t i = 0; i < kCables; ++i) {
         machine.problem.time->winch_speed_m_s[i] = near(middle.winch_speed[i]);
         machine.problem.time->winch_acceleration_m_s2[i] = near(middle.winch_acceleration[i]);
+        machine.problem.time->winch_power_W[i] = near(middle.high[i] * middle.winch_speed[i]);
       }
       machine.problem.time->load_speed_m_s = near(middle.speed);
       machine.problem.time->load_acceleration_m_s2 = near(middle.acceleration);
@@ -207,6 +210,60 @@ TEST(Moving, MachinesThatDeviateKeepTheLimitsOfProofs) {
       }
     }
   }
+}
+
+/// `move` at the time `at`, run at a share of its speed that changes at a rate: at t = 0.
+oracle::Move slowed(const oracle::Move& move, double at, double share, double change) {
+  return oracle::Move([=, &move](const BigFloat& t) {
+    return move.pose(BigFloat(at) + BigFloat(share) * t + BigFloat(change / 2) * t * t);
+  });
+}
+
+TEST(Moving, MovesThatMayStopKeepTheirLimitsAtEverySpeed) {
+  Operands operands(43);
+  std::map<std::string, int> count;
+  constexpr int kTrials = 60;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    MovingMachine machine(operands);
+    const Path path = some_move(operands, 0.1);
+    const double stopping_s = 0x1p-10 * std::ceil(0x1p10 * path.timing->duration_s() * operands.uniform(0.05, 0.5));
+    const PrecisionScope precision(oracle::kMovingBits);
+    const oracle::Move move = oracle_of(path);
+    const Truth middle = truth(machine, move, BigFloat(path.timing->duration_s() * 0.5));
+    machine.problem.time->load_acceleration_m_s2 =
+        MovingMachine::exact_text(middle.acceleration.to_double(MPFR_RNDN) * operands.uniform(1, 20) + 1e-3);
+    const auto is_proved = [&] {
+      const Prover prover(machine.problem, {.max_bits = 256, .max_boxes = 4000, .max_multiprecision_boxes = 50});
+      for (std::size_t k = 0; k < path.segments(); ++k) {
+        if (prover.prove(path.segment(k)).verdict != Verdict::kProved) return false;
+      }
+      return true;
+    };
+    const bool is_proved_by_law = is_proved();
+    machine.problem.time->stopping_time_s = MovingMachine::exact_text(stopping_s);
+    const bool is_proved_slowed = is_proved();
+    EXPECT_LE(is_proved_slowed, is_proved_by_law) << trial;
+    if (!is_proved_by_law) continue;
+    bool is_broken = false;
+    constexpr int kTimes = 30;
+    for (int n = 0; n < kTimes; ++n) {
+      const double at = path.timing->duration_s() * operands.uniform(1e-6, 1 - 1e-6);
+      const double share = operands.pick(3) == 0 ? operands.uniform(0, 1) : 1;
+      const double change = (1 - 1e-9) / stopping_s * (operands.pick(2) == 0 ? -1 : 1);
+      for (const auto& [limit, slack] :
+           slacks(machine.problem, truth(machine, slowed(move, at, share, change), BigFloat(0.0)))) {
+        is_broken = is_broken || slack < BigFloat(0.0);
+        if (is_proved_slowed) {
+          EXPECT_GT(slack, -oracle::big("1e-20")) << trial << ": " << limit;
+        }
+      }
+    }
+    ++count[is_proved_slowed ? "proved" : is_broken ? "broken" : "open"];
+  }
+  for (const auto& [what, times] : count) std::printf("%s: %d\n", what.c_str(), times);
+  EXPECT_GT(count["proved"], kTrials / 10);
+  EXPECT_GT(count["broken"], kTrials / 10) << "by machines that brake, of moves that are proved at full speed";
+  EXPECT_LT(count["open"], kTrials / 6);
 }
 
 TEST(Moving, ATurnOfThePlatformChangesItsInertiaByNoMoreThanIsSaid) {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "checker/format/claims.h"
+#include "checker/format/exact.h"
+#include "checker/stated_load.h"
 #include "tests/checker/fixtures.h"
 
 namespace taut::checker {
@@ -88,6 +90,110 @@ TEST(Checker, SaysWhatItDidNotCompare) {
   using Names = std::vector<std::string>;
   EXPECT_EQ(check(json.dump()).not_compared, (Names{"case", "path file"}));
   EXPECT_EQ(check(json.dump(), {.problem = &problem}).not_compared, Names{"path file"});
+}
+
+TEST(Checker, AnAuditWithoutALawIsComparedWithACaseWithoutTime) {
+  using Names = std::vector<std::string>;
+  const CheckOptions nothing_proved = {.max_seconds = 0};
+  const auto compare = [&](const nlohmann::json& certificate, const nlohmann::json& of_case) {
+    CheckOptions options = nothing_proved;
+    options.problem = &of_case;
+    return check(certificate.dump(), options);
+  };
+  nlohmann::json audit = accepted("geodesic");
+  audit["problem"]["load"] = nlohmann::json::parse(R"({"point_m": ["0", "0", "0"], "gravity_m_s2": ["0", "0", "-9.81"],
+    "items": [{"name": "payload", "weight": {"mass_kg": ["1", "1"], "at_m": ["0", "0", "0"], "at_tolerance_m": "0"}},
+              {"name": "any", "force": {"ball": {"radius": "1"}, "axes": "W", "at_m": ["0", "0", "0"]}}]})");
+  audit["claim"] = claim_text(true, {.has_items = true});
+  seal(audit);
+  nlohmann::json of_case = audit["problem"];
+  of_case["time"] = {{"load_speed_m_s", "1"}};
+  of_case["load"]["items"][0]["weight"]["inertia_box_m"] = {"1", "1", "1"};
+  const CheckResult compared = compare(audit, of_case);
+  EXPECT_EQ(compared.outcome, Outcome::kUnchecked) << compared.message;
+  EXPECT_EQ(compared.not_compared, (Names{"time", "path file"}));
+  of_case["load"]["items"][0]["weight"]["mass_kg"][1] = "2";
+  EXPECT_EQ(compare(audit, of_case).message, "the certificate is about another problem");
+
+  const nlohmann::json planned = accepted("robot1_near_goal");
+  of_case = planned["problem"];
+  EXPECT_EQ(compare(planned, of_case).outcome, Outcome::kUnchecked);
+  of_case["time"] = {{"load_speed_m_s", "1"}};
+  EXPECT_EQ(compare(planned, of_case).message, "the certificate is about another problem");
+}
+
+/// robot1_near_goal as a move that rests at each waypoint, with steps of so many seconds.
+nlohmann::json a_move(const std::string& step_s, const nlohmann::json& limits) {
+  nlohmann::json json = accepted("robot1_near_goal");
+  json["version"] = 6;
+  json["claim"] = claim_text(true, {.has_time = true, .is_move = true});
+  json["problem"]["time"] = limits;
+  nlohmann::json controls = nlohmann::json::array();
+  for (std::size_t k = 0; k < json["path"]["waypoints"].size(); ++k) {
+    for (int n = 0; n < 3; ++n) controls.push_back(print_binary64(static_cast<double>(k)));
+  }
+  json["path"]["timing"] = {{"controls", controls}, {"step_s", step_s}};
+  for (nlohmann::json& segment : json["segments"]) segment["margins"]["wrench_scale"] = "1";
+  json["margins"]["wrench_scale"] = "1";
+  seal(json);
+  return json;
+}
+
+TEST(Checker, AcceptsAMoveThatKeepsItsLimitsInTime) {
+  const nlohmann::json limits = {{"load_acceleration_m_s2", "1"},
+                                 {"load_angular_acceleration_rad_s2", "1"},
+                                 {"load_angular_speed_rad_s", "pi"},
+                                 {"load_speed_m_s", "1/10"},
+                                 {"winch_acceleration_m_s2", nlohmann::json(6, "1")},
+                                 {"winch_power_W", {nullptr, "1", "1", "1", "1", "1"}},
+                                 {"winch_speed_m_s", nlohmann::json(6, "0.1")}};
+  const nlohmann::json slow = a_move("0x1p+4", limits);
+  const CheckResult result = check(slow.dump());
+  EXPECT_EQ(result.outcome, Outcome::kAccepted) << result.message;
+  EXPECT_NE(result.message.find("a move, proved again"), std::string::npos) << result.message;
+  EXPECT_NE(result.message.find("limits in time kept"), std::string::npos) << result.message;
+  EXPECT_EQ(check(a_move("0x1p-4", limits).dump()).outcome, Outcome::kRejected);
+  for (const auto& [key, value] : limits.items()) {
+    const nlohmann::json least = value.is_array() ? nlohmann::json(6, "1e-9") : nlohmann::json("1e-9");
+    const CheckResult rejected = check(a_move("0x1p+4", {{key, least}}).dump());
+    EXPECT_EQ(rejected.outcome, Outcome::kRejected) << key;
+    EXPECT_NE(rejected.message.find("may not be kept"), std::string::npos) << rejected.message;
+  }
+  EXPECT_EQ(
+      stated_time(slow.dump()),
+      "limits in time: winch speed below 0.1 m/s; winch acceleration below 1 m/s^2; winch power below (no limit, 1, "
+      "1, 1, 1, 1) W; speed of the load point below 1/10 m/s; acceleration of the load point below 1 m/s^2; angular "
+      "speed below pi rad/s; angular acceleration below 1 rad/s^2");
+  EXPECT_EQ(stated_time(accepted("robot1_near_goal").dump()), "");
+  nlohmann::json growing = slow;
+  for (nlohmann::json& segment : growing["segments"]) segment["margins"]["wrench_scale"] = "1.0001";
+  growing["margins"]["wrench_scale"] = "1.0001";
+  seal(growing);
+  EXPECT_NE(check(growing.dump()).message.find("the wrench scale is not proved as claimed"), std::string::npos);
+}
+
+TEST(Checker, ConfirmsThatAMoveIsTooFast) {
+  const auto refuted = [&](const std::string& step_s, const char* lower) {
+    nlohmann::json json = a_move(step_s, {{"load_speed_m_s", "1/1000"}});
+    json["verdict"] = "refuted";
+    json["claim"] = claim_text(false, {.has_time = true, .is_move = true});
+    json["margins"] = nlohmann::json::object();
+    json["segments"] = nlohmann::json::array();
+    json["witness"] = {{"at", {{"segment", 0}, {"s", "1/2"}}},
+                       {"cable", nullptr},
+                       {"kind", "load_speed"},
+                       {"limit", "1/1000"},
+                       {"motion", nlohmann::json::array()},
+                       {"proof", {{"bits", 64}}},
+                       {"value", {lower, "1e3"}}};
+    seal(json);
+    return check(json.dump());
+  };
+  const CheckResult accepted = refuted("0x1p-7", "0.0011");
+  EXPECT_EQ(accepted.outcome, Outcome::kAccepted) << accepted.message;
+  EXPECT_NE(accepted.message.find("a move, refuted again"), std::string::npos) << accepted.message;
+  EXPECT_NE(refuted("0x1p-7", "0.0009").message.find("states a rate that may be below its limit"), std::string::npos);
+  EXPECT_NE(refuted("0x1p+10", "0.0011").message.find("the rate at the witness is outside"), std::string::npos);
 }
 
 TEST(Checker, PrintsWhatAFileSaysAsOneLineOfAscii) {

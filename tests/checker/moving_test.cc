@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "checker/kernel/box_proof.h"
+#include "checker/witness.h"
 #include "tests/checker/kernel.h"
 #include "tests/support/moves.h"
 
@@ -109,7 +110,8 @@ TEST(KernelMoving, InertiaAndRatesAreThoseOfParticles) {
     const Path path = to_kernel(random.path);
     const WorkingPrecision precision(random.box.bits);
     const Machine machine(problem);
-    const Moving said = moving(machine, problem, path, random.k, random.box);
+    const Moving said =
+        moving(machine, problem, path, random.k, random.box, speed_by_law(problem, path, random.k, random.box));
     const oracle::Move move = testing::oracle_of(random.path);
     for (const double u : {-1.0, 1.0, operands.uniform(-1, 1)}) {
       const BigFloat t = random.time(u);
@@ -141,15 +143,21 @@ TEST(KernelMoving, InertiaAndRatesAreThoseOfParticles) {
   EXPECT_LT(widest, 1e-3);
 }
 
-/// The least distance of a tension from its limits, with what inertia takes.
-BigFloat least_slack(const taut::Problem& problem, const testing::MovingMachine& machine, const oracle::Move& move,
-                     const BigFloat& t) {
+/// Tensions with what inertia takes.
+oracle::OracleStatics statics_of(const taut::Problem& problem, const testing::MovingMachine& machine,
+                                 const oracle::Move& move, const BigFloat& t) {
   taut::Problem with_inertia = problem;
   const oracle::Big6 inertia = move.inertia(machine.particles(), oracle::big(problem.load.point_m), t);
   for (std::size_t k = 0; k < 6; ++k) {
     with_inertia.load.wrench[k] = BigFloat(oracle::big(problem.load.wrench[k]) - inertia[k]).to_decimal(80, MPFR_RNDN);
   }
-  const oracle::OracleStatics statics = oracle::statics(with_inertia, move.pose(t));
+  return oracle::statics(with_inertia, move.pose(t));
+}
+
+/// The least distance of a tension from its limits.
+BigFloat least_slack(const taut::Problem& problem, const testing::MovingMachine& machine, const oracle::Move& move,
+                     const BigFloat& t) {
+  const oracle::OracleStatics statics = statics_of(problem, machine, move, t);
   BigFloat least(1e9);
   for (std::size_t i = 0; i < kCables; ++i) {
     const auto& [lower, upper] = problem.robot.tension_N[i];
@@ -217,6 +225,339 @@ TEST(KernelMoving, MachinesThatDeviateKeepTheBoundsOfBoxes) {
     }
   }
   EXPECT_GT(proved, 30);
+}
+
+// ---- Power ----------------------------------------------------------------------------------------------------------
+
+/// The greatest tension of each cable times the magnitude of that cable's commanded speed.
+std::array<BigFloat, kCables> powers(const oracle::OracleStatics& statics, const testing::MovingMachine& machine,
+                                     const oracle::Move& commanded, const BigFloat& t) {
+  std::array<BigFloat, kCables> result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const BigFloat speed = commanded
+                               .winch(oracle::big(machine.problem.robot.base_anchors_m[i]),
+                                      oracle::big(machine.problem.robot.platform_anchors_m[i]), t)
+                               .first;
+    result[i] = (statics.tension[i] + statics.tension_radius[i]) * abs(speed);
+  }
+  return result;
+}
+
+/// Whether a box is proved with a limit of the power of one cable, beside limits of tensions and lengths that hold.
+bool is_power_proved(const RandomMove& random, std::size_t cable, double limit) {
+  Problem problem = to_kernel_in_time(random.machine);
+  problem.time.emplace().winch_power[cable] = constant(fmt::format("{:.17g}", limit));
+  const WorkingPrecision precision(random.box.bits);
+  try {
+    (void)prove_box(Machine(problem), problem, to_kernel(random.path), random.k, random.box);
+  } catch (const Undefined&) {
+    return false;
+  }
+  return true;
+}
+
+TEST(KernelMoving, APowerIsProvedExactlyWhereItIsBelowItsLimit) {
+  const PrecisionScope oracle(oracle::kMovingBits);
+  Operands operands(15);
+  int proved = 0, asked = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    const RandomMove random(operands, 9);
+    if (!proved_bound(random)) continue;
+    const oracle::Move move = testing::oracle_of(random.path);
+    std::array<double, kCables> greatest{};
+    for (const double u : {-1.0, 0.0, 1.0}) {
+      const BigFloat t = random.time(u);
+      const oracle::OracleStatics statics = statics_of(random.machine.problem, random.machine, move, t);
+      const auto power = powers(statics, random.machine, move, t);
+      for (std::size_t i = 0; i < kCables; ++i) greatest[i] = std::max(greatest[i], power[i].to_double());
+    }
+    for (std::size_t i = 0; i < kCables; ++i) {
+      ++asked;
+      EXPECT_FALSE(is_power_proved(random, i, greatest[i] * (1 - 1e-12))) << trial << " " << i;
+      proved += is_power_proved(random, i, greatest[i] * 1.1 + 1e-3) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(asked, 120);
+  EXPECT_GT(proved, asked * 8 / 10);
+}
+
+TEST(KernelMoving, MachinesThatDeviateKeepALimitOfPower) {
+  const PrecisionScope oracle(oracle::kMovingBits);
+  Operands operands(17);
+  int proved = 0, near = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    RandomMove random(operands, 9);
+    const oracle::Move commanded = testing::oracle_of(random.path);
+    const auto as_stated = powers(statics_of(random.machine.problem, random.machine, commanded, random.time(0)),
+                                  random.machine, commanded, random.time(0));
+    const testing::SomeTolerances tolerances(operands, 0.05);
+    random.machine.problem.tolerances = tolerances.text();
+    random.box.parts = 2;
+    random.box.guesses = 4;
+    const auto cable = static_cast<std::size_t>(operands.pick(kCables));
+    // The least limit of a geometric series that is proved.
+    double limit = as_stated[cable].to_double();
+    for (int k = 0; k < 60 && !is_power_proved(random, cable, limit); ++k) limit *= 1.05;
+    if (!is_power_proved(random, cable, limit)) continue;
+    ++proved;
+    for (int n = 0; n < 8; ++n) {
+      const taut::Problem other = tolerances.some_machine(random.machine.problem, operands);
+      const oracle::Move move = tolerances.some_move(commanded, operands);
+      const BigFloat t = random.time(operands.uniform(-1, 1));
+      const auto power = powers(statics_of(other, random.machine, move, t), random.machine, commanded, t);
+      EXPECT_LT(power[cable], BigFloat(limit)) << trial;
+      if (power[cable] > BigFloat(as_stated[cable].to_double() * 1.01)) ++near;
+    }
+  }
+  EXPECT_GT(proved, 15);
+  EXPECT_GT(near, 10) << "deviations matter";
+}
+
+// ---- Witnesses ------------------------------------------------------------------------------------------------------
+
+constexpr std::array kRates = {WitnessKind::kWinchSpeed,
+                               WitnessKind::kWinchAcceleration,
+                               WitnessKind::kWinchPower,
+                               WitnessKind::kLoadSpeed,
+                               WitnessKind::kLoadAcceleration,
+                               WitnessKind::kLoadAngularSpeed,
+                               WitnessKind::kLoadAngularAcceleration};
+
+/// ω and its rate: with E the columns of R, [ω] = E' E^T and [ω'] = E'' E^T + E' E'^T.
+std::pair<oracle::Big3, oracle::Big3> rotation_rates(const oracle::Move& move, const BigFloat& t) {
+  std::array<oracle::Big3, 3> columns, first, second;
+  const oracle::Big3 origin = {BigFloat(0.0), BigFloat(0.0), BigFloat(0.0)};
+  const oracle::Big6 pose = move.pose(t);
+  const auto [v, a] = move.rates(origin, t);
+  for (std::size_t k = 0; k < 3; ++k) {
+    oracle::Big3 e = origin;
+    e[k] = BigFloat(1.0);
+    columns[k] = oracle::place(pose, e);
+    std::tie(first[k], second[k]) = move.rates(e, t);
+    for (std::size_t c = 0; c < 3; ++c) {
+      columns[k][c] -= pose[c];
+      first[k][c] -= v[c];
+      second[k][c] -= a[c];
+    }
+  }
+  const auto skew = [&](std::size_t i, std::size_t j, bool is_rate) {
+    BigFloat sum(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum += is_rate ? second[k][i] * columns[k][j] + first[k][i] * first[k][j] : first[k][i] * columns[k][j];
+    }
+    return sum;
+  };
+  return {{skew(2, 1, false), skew(0, 2, false), skew(1, 0, false)},
+          {skew(2, 1, true), skew(0, 2, true), skew(1, 0, true)}};
+}
+
+/// What a witness of the kind is about, at a time.
+BigFloat quantity_of(const testing::MovingMachine& machine, const oracle::Move& move, WitnessKind kind,
+                     std::size_t cable, const BigFloat& t) {
+  const oracle::Big3 none = {BigFloat(0.0), BigFloat(0.0), BigFloat(0.0)};
+  const auto winch = [&] {
+    return move.winch(oracle::big(machine.problem.robot.base_anchors_m[cable]),
+                      oracle::big(machine.problem.robot.platform_anchors_m[cable]), t);
+  };
+  const auto load = [&] { return move.rates(oracle::big(machine.problem.load.point_m), t); };
+  const auto statics = [&] { return statics_of(machine.problem, machine, move, t); };
+  switch (kind) {
+    case WitnessKind::kTensionMin: return statics().tension[cable] - statics().tension_radius[cable];
+    case WitnessKind::kTensionMax: return statics().tension[cable] + statics().tension_radius[cable];
+    case WitnessKind::kWinchSpeed: return abs(winch().first);
+    case WitnessKind::kWinchAcceleration: return abs(winch().second);
+    case WitnessKind::kWinchPower: return powers(statics(), machine, move, t)[cable];
+    case WitnessKind::kLoadSpeed: return oracle::distance(load().first, none);
+    case WitnessKind::kLoadAcceleration: return oracle::distance(load().second, none);
+    case WitnessKind::kLoadAngularSpeed: return oracle::distance(rotation_rates(move, t).first, none);
+    case WitnessKind::kLoadAngularAcceleration: return oracle::distance(rotation_rates(move, t).second, none);
+    default: throw std::logic_error("a kind of which nothing is asked");
+  }
+}
+
+/// The machine with limits of all kinds.
+Problem limited(const testing::MovingMachine& machine, const std::string& limit) {
+  Problem problem = to_kernel_in_time(machine);
+  TimeLimits& limits = problem.time.emplace();
+  for (std::size_t i = 0; i < kCables; ++i) {
+    limits.winch_speed[i] = limits.winch_acceleration[i] = limits.winch_power[i] = constant(limit);
+  }
+  limits.load_speed = limits.load_acceleration = constant(limit);
+  limits.load_angular_speed = limits.load_angular_acceleration = constant(limit);
+  return problem;
+}
+
+TEST(KernelMoving, WitnessesSayWhatParticlesDo) {
+  const PrecisionScope oracle(oracle::kMovingBits);
+  Operands operands(19);
+  int narrow = 0, all = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    const RandomMove random(operands, 10);
+    const Problem problem = limited(random.machine, "1");
+    const Path path = to_kernel(random.path);
+    const oracle::Move move = testing::oracle_of(random.path);
+    const WorkingPrecision precision(128);
+    const Machine machine(problem);
+    Witness witness;
+    witness.at = {random.k, random.box.begin};
+    witness.at_box.bits = 128;
+    const BigFloat t = random.time(-1);
+    const auto expect = [&](WitnessKind kind) {
+      witness.kind = kind;
+      const BigFloat truth = quantity_of(random.machine, move, kind, witness.cable, t);
+      const Ball seen = witnessed_quantity(machine, problem, path, witness);
+      EXPECT_TRUE(holds(seen, truth, kError)) << trial << ": " << print(seen) << " is not " << testing::digits(truth);
+      ++all;
+      if (width(seen) < 1e-3 * (1 + std::abs(truth.to_double()))) ++narrow;
+    };
+    for (std::size_t cable = 0; cable < kCables; ++cable) {
+      witness.cable = cable;
+      expect(WitnessKind::kTensionMin);
+      expect(WitnessKind::kTensionMax);
+      for (const WitnessKind kind : kRates) {
+        if (is_of_winch(rate_of(kind).value())) expect(kind);
+      }
+    }
+    witness.cable = 0;
+    for (const WitnessKind kind : kRates) {
+      if (!is_of_winch(rate_of(kind).value())) expect(kind);
+    }
+  }
+  EXPECT_GT(narrow, all * 9 / 10);
+}
+
+TEST(KernelMoving, ARateIsConfirmedOnlyWhereItIsNotBelowItsLimit) {
+  const PrecisionScope oracle(oracle::kMovingBits);
+  Operands operands(21);
+  const RandomMove random(operands, 10);
+  const Path path = to_kernel(random.path);
+  const WorkingPrecision precision(128);
+  for (const WitnessKind kind : kRates) {
+    Witness witness;
+    witness.kind = kind;
+    witness.at = {random.k, random.box.begin};
+    witness.at_box.bits = 128;
+    witness.cable = is_of_winch(rate_of(kind).value()) ? 3 : 0;
+    const Problem any = limited(random.machine, "1");
+    const double value = approx(witnessed_quantity(Machine(any), any, path, witness));
+    const auto confirm = [&](double lower, double upper, double limit) {
+      witness.value_lower = exact(lower);
+      witness.value_upper = exact(upper);
+      const Problem problem = limited(random.machine, fmt::format("sqrt({:.17g}^2)", limit));
+      confirm_violation(Machine(problem), problem, path, witness);
+    };
+    const double off = 0.01 * (1 + value);
+    EXPECT_NO_THROW(confirm(value - off, value + off, std::max(value - 2 * off, 1e-9))) << static_cast<int>(kind);
+    EXPECT_THROW(confirm(value - off, value + off, value), Rejected) << "the value may be below the limit";
+    EXPECT_THROW(confirm(value + off, value + 2 * off, value), Rejected) << "the rate is not so large";
+    EXPECT_THROW(confirm(value - 2 * off, value - off, 1e-9), Rejected) << "the rate is larger";
+    Problem without = any;
+    without.time = TimeLimits{};
+    EXPECT_THROW((void)witnessed_quantity(Machine(without), without, path, witness), Rejected);
+    Path at_rest = path;
+    at_rest.timing.reset();
+    EXPECT_THROW((void)witnessed_quantity(Machine(any), any, at_rest, witness), Rejected);
+    witness.loads.emplace();
+    EXPECT_THROW((void)witnessed_quantity(Machine(any), any, path, witness), Rejected);
+    witness.loads.reset();
+    witness.deviation.emplace();
+    EXPECT_THROW((void)witnessed_quantity(Machine(any), any, path, witness), Rejected);
+  }
+}
+
+/// Tensions are those of w - w_in for every mass and centre of gravity, that of the one worst load included.
+TEST(KernelMoving, AWitnessHoldsTheTensionsOfEveryMass) {
+  const PrecisionScope oracle(oracle::kMovingBits);
+  Operands operands(23);
+  for (int trial = 0; trial < 12; ++trial) {
+    const RandomMove random(operands, 10);
+    Problem problem = limited(random.machine, "1");
+    auto& weight = std::get<Weight>(problem.items[0].set);
+    weight.mass = {exact(random.machine.mass / 2), exact(random.machine.mass)};
+    const Path path = to_kernel(random.path);
+    const oracle::Move move = testing::oracle_of(random.path);
+    const WorkingPrecision precision(128);
+    Witness witness;
+    witness.at = {random.k, random.box.begin};
+    witness.at_box.bits = 128;
+    for (const double share : {0.5, 0.75, 1.0}) {
+      testing::MovingMachine lighter = random.machine;
+      lighter.mass *= share;
+      for (std::size_t cable = 0; cable < kCables; ++cable) {
+        witness.cable = cable;
+        for (const WitnessKind kind : {WitnessKind::kTensionMin, WitnessKind::kTensionMax, WitnessKind::kWinchPower}) {
+          witness.kind = kind;
+          const Ball seen = witnessed_quantity(Machine(problem), problem, path, witness);
+          EXPECT_TRUE(holds(seen, quantity_of(lighter, move, kind, cable, random.time(-1)), kError)) << trial;
+        }
+      }
+    }
+  }
+}
+
+TEST(KernelMoving, AWitnessIsAboutAllTimesAtWhichTheMoveIsThere) {
+  const PrecisionScope oracle(oracle::kMovingBits);
+  Operands operands(25);
+  const testing::MovingMachine some(operands);
+  const Problem problem = limited(some, "1");
+  Path path;
+  path.waypoints = {waypoint({0, 0, 0.3, 0, 0.1, 0}), waypoint({0.02, 0, 0.3, 0, 0.1, 0.1})};
+  // From 0 to 1/2, where it rests from 1.5 s on, until 2 s, and then on to 1.
+  path.timing = TimeLaw{0.5, {0, 0, 0, 0.5, 0.5, 0.5, 0.5, 1, 1, 1}};
+  ASSERT_NO_THROW(require_time_law(problem, path));
+  const WorkingPrecision precision(128);
+  const Machine machine(problem);
+  Witness witness;
+  witness.at_box.bits = 128;
+  witness.kind = WitnessKind::kLoadAcceleration;
+  witness.at = {0, mpq_class(1, 2)};
+  const Ball resting = witnessed_quantity(machine, problem, path, witness);
+  EXPECT_TRUE(holds(resting, BigFloat(0.0))) << "it rests for a while: " << print(resting);
+  EXPECT_LT(width(resting), 1e-2);
+  witness.at.s = mpq_class(1, 4);
+  witness.kind = WitnessKind::kLoadSpeed;
+  const Ball passing = witnessed_quantity(machine, problem, path, witness);
+  EXPECT_TRUE(certainly_positive(passing)) << print(passing);
+  witness.at.s = mpq_class(1, 2);
+  EXPECT_TRUE(holds(witnessed_quantity(machine, problem, path, witness), BigFloat(0.0)));
+  // Where it rests, tensions are those of the machine at rest.
+  Path at_rest = path;
+  at_rest.timing.reset();
+  witness.kind = WitnessKind::kTensionMax;
+  for (std::size_t cable = 0; cable < kCables; ++cable) {
+    witness.cable = cable;
+    const Ball of_move = witnessed_quantity(machine, problem, path, witness);
+    EXPECT_TRUE(is_within(witnessed_quantity(machine, problem, at_rest, witness), plus_minus(of_move, Ball(1e-25))));
+  }
+  // So they are in a problem with limits in time and a path without a law, at any place.
+  Problem timeless = problem;
+  timeless.time.reset();
+  std::get<Weight>(timeless.items[0].set).inertia_box.reset();
+  for (const mpq_class& s : {mpq_class(0), mpq_class(1, 4), mpq_class(1)}) {
+    witness.at.s = s;
+    const Ball with_limits = witnessed_quantity(machine, problem, at_rest, witness);
+    const Ball without = witnessed_quantity(Machine(timeless), timeless, at_rest, witness);
+    EXPECT_TRUE(arb_equal(with_limits.get(), without.get()));
+  }
+}
+
+TEST(KernelMoving, ThatKMayGrowIsNotClaimed) {
+  Operands operands(27);
+  int proved = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    const RandomMove random(operands, 10);
+    Problem problem = to_kernel_in_time(random.machine);
+    problem.time.emplace();
+    const WorkingPrecision precision(random.box.bits);
+    try {
+      const Bounds bounds = prove_box(Machine(problem), problem, to_kernel(random.path), random.k, random.box);
+      EXPECT_TRUE(arb_equal_si(bounds.wrench_scale.get(), 1));
+      ++proved;
+    } catch (const Undefined&) {
+      continue;
+    }
+  }
+  EXPECT_GT(proved, 5);
 }
 
 }  // namespace

@@ -147,6 +147,45 @@ Json refuted_by_loads() {
   return json;
 }
 
+Json limits_in_time() {
+  return {{"load_speed_m_s", "1/3"},
+          {"load_angular_speed_rad_s", "(5)*pi/180"},
+          {"winch_power_W", {nullptr, "1e3", nullptr, nullptr, nullptr, "2*10^3"}},
+          {"winch_speed_m_s", repeated(6, "1")}};
+}
+
+/// A proved move along the same path, whose load has a box.
+Json moving() {
+  Json json = proved();
+  json["version"] = 6;
+  json["problem"]["load"] = load_of_items();
+  json["problem"]["load"]["items"][0]["weight"]["inertia_box_m"] = {"1", "1/2", "0.25"};
+  json["problem"]["time"] = limits_in_time();
+  json["path"]["timing"] = {{"step_s", "0x1p-1"}, {"controls", numbers({0, 0, 0, 1, 1, 1, 2, 2, 2})}};
+  json["claim"] = std::string(kProvedClaim) + kItemsClause + kMoveClause;
+  return json;
+}
+
+Json of_rate(const char* kind, const Json& cable, const char* limit) {
+  Json json = witness();
+  json["kind"] = kind;
+  json["cable"] = cable;
+  json["limit"] = limit;
+  json["value"] = {"3e3", "4e3"};
+  return json;
+}
+
+/// Refuted by a winch's power.
+Json refuted_move() {
+  Json json = moving();
+  json["verdict"] = "refuted";
+  json["claim"] = std::string(kRefutedClaim) + kItemsClause + kMoveRefutedClause;
+  json["margins"] = Json::object();
+  json["segments"] = Json::array();
+  json["witness"] = of_rate("winch_power", 6, "2*10^3");
+  return json;
+}
+
 Json undecided() {
   Json json = proved();
   json["verdict"] = "undecided";
@@ -522,11 +561,217 @@ TEST(Reader, SaysWhoSigned) {
   EXPECT_EQ(message(canonical(json)), "signature.algorithm: expected 'Ed25519'");
 }
 
+TEST(Reader, ReadsAMove) {
+  const std::string text = sealed(moving());
+  const Certificate certificate = read_certificate(text);
+  const TimeLimits& limits = certificate.problem.time.value();
+  const auto value = [](const std::optional<Expression>& x) { return x.value().evaluate<MeanValueForm>({}).range(); };
+  EXPECT_TRUE(is_within(Ball(1), value(limits.of(RateKind::kWinchSpeed, 5))));
+  EXPECT_FALSE(limits.winch_power[0]);
+  EXPECT_TRUE(is_within(Ball(2000), value(limits.of(RateKind::kWinchPower, 5))));
+  EXPECT_FALSE(limits.winch_acceleration[0]);
+  EXPECT_TRUE(certainly_positive(value(limits.of(RateKind::kLoadAngularSpeed, 0)) - Ball(mpq_class(8, 100))));
+  EXPECT_TRUE(limits.load_speed);
+  EXPECT_FALSE(limits.load_acceleration || limits.load_angular_acceleration);
+  const auto& weight = std::get<Weight>(certificate.problem.items[0].set);
+  EXPECT_EQ(weight.inertia_box.value()[1], mpq_class(1, 2));
+  const TimeLaw& law = certificate.path.timing.value();
+  EXPECT_EQ(law.step_s, 0.5);
+  EXPECT_EQ(law.controls, (std::vector<double>{0, 0, 0, 1, 1, 1, 2, 2, 2}));
+  EXPECT_EQ(digest(moving()["path"]), Json::parse(text)["path_sha256"]);
+  std::string altered = text;
+  altered.replace(altered.find("0x1p-1"), 6, "0x1p-2");
+  EXPECT_NE(message(altered).find("it was altered"), std::string::npos);
+
+  const std::string refuted_text = sealed(refuted_move());
+  const Certificate refuted = read_certificate(refuted_text);
+  EXPECT_EQ(refuted.witness->kind, WitnessKind::kWinchPower);
+  EXPECT_EQ(refuted.witness->cable, 5U);
+  EXPECT_EQ(refuted.witness->value_lower, 3000);
+}
+
+TEST(Reader, ReadsAMoveThatMayBeStopped) {
+  Json json = moving();
+  json["problem"]["time"]["stopping_time_s"] = "3/2";
+  EXPECT_EQ(message(sealed(json)), "claim: expected the text that belongs to the verdict");
+  json["claim"] = std::string(kProvedClaim) + kItemsClause + kMoveClause + kMayStopClause;
+  const std::string text = sealed(json);
+  const Certificate certificate = read_certificate(text);
+  const Ball seconds = certificate.problem.time->stopping_time.value().evaluate<MeanValueForm>({}).range();
+  EXPECT_TRUE(is_within(Ball(1.5), seconds));
+  expect_messages(json,
+                  {{"/problem/time/stopping_time_s", "0", "problem.time.stopping_time_s: expected a limit above 0"},
+                   {"/problem/time/stopping_time_s", nullptr, "problem.time.stopping_time_s: expected a string"},
+                   {"/problem/time", {{"stopping_time_s", "1"}}, "problem.time: expected at least one limit"},
+                   {"/problem/time/stopping_time_s", kRemoved, "claim: expected the text that belongs"}});
+  Json refuted = refuted_move();
+  refuted["problem"]["time"]["stopping_time_s"] = "1";
+  EXPECT_EQ(message(sealed(refuted)), "none") << "it is refuted as its law runs it";
+}
+
+TEST(Reader, ReadsWitnessesOfEveryRate) {
+  Json base = refuted_move();
+  base["problem"]["time"]["load_acceleration_m_s2"] = "1";
+  base["problem"]["time"]["load_angular_acceleration_rad_s2"] = "1";
+  base["problem"]["time"]["winch_acceleration_m_s2"] = repeated(6, "1");
+  const std::vector<std::pair<Json, RateKind>> all = {
+      {of_rate("winch_speed", 2, "1"), RateKind::kWinchSpeed},
+      {of_rate("winch_acceleration", 1, "1"), RateKind::kWinchAcceleration},
+      {of_rate("winch_power", 2, "1e3"), RateKind::kWinchPower},
+      {of_rate("load_speed", nullptr, "1/3"), RateKind::kLoadSpeed},
+      {of_rate("load_acceleration", nullptr, "1"), RateKind::kLoadAcceleration},
+      {of_rate("load_angular_speed", nullptr, "(5)*pi/180"), RateKind::kLoadAngularSpeed},
+      {of_rate("load_angular_acceleration", nullptr, "1"), RateKind::kLoadAngularAcceleration}};
+  for (const auto& [witness, rate] : all) {
+    base["witness"] = witness;
+    const std::string text = sealed(base);
+    const Certificate certificate = read_certificate(text);
+    EXPECT_EQ(rate_of(certificate.witness->kind), rate);
+    EXPECT_EQ(certificate.witness->cable, is_of_winch(rate) ? witness["cable"].get<std::size_t>() - 1 : 0U);
+    Json other = base;
+    other["witness"]["cable"] = is_of_winch(rate) ? Json() : Json(1);
+    EXPECT_EQ(message(sealed(other)).find("witness.cable: expected"), 0U);
+  }
+  for (Json witness : {witness(), of_rate("length_max", 3, "0.55")}) {
+    if (witness["kind"] == "length_max") witness["value"] = {"0.55", "0.6"};
+    base["witness"] = witness;
+    EXPECT_EQ(message(sealed(base)), "none") << "limits of tensions and lengths are those of moves, too";
+  }
+}
+
+TEST(Reader, NamesWhatIsWrongWithLimitsInTime) {
+  const std::string time = "/problem/time";
+  const auto at = [&](const char* key) { return time + "/" + key; };
+  const std::string speed = at("winch_speed_m_s"), third = speed + "/2", load = at("load_speed_m_s");
+  const std::string box = "/problem/load/items/0/weight/inertia_box_m", side = box + "/2";
+  const std::string moment_box = "/problem/load/items/3/moment/inertia_box_m";
+  expect_messages(
+      moving(),
+      {{"/version", 4, "version: expected an integer from 6 to 6"},
+       {"/version", 5, "version: expected an integer from 6 to 6"},
+       {"/version", 7, "version: expected 4, 5 or 6, got 7"},
+       {time.c_str(), nullptr, "problem.time: expected an object"},
+       {time.c_str(), Json::object(), "problem.time: expected at least one limit"},
+       {time.c_str(), kRemoved, "problem.load.items[0].weight: expected no key 'inertia_box_m' in a problem without"},
+       {at("winch_jerk").c_str(), "1", "problem.time: expected no key 'winch_jerk'"},
+       {load.c_str(), "0", "problem.time.load_speed_m_s: expected a limit above 0"},
+       {load.c_str(), "-1", "problem.time.load_speed_m_s: expected a limit above 0"},
+       {load.c_str(), "pi - pi", "problem.time.load_speed_m_s: expected a limit above 0"},
+       {load.c_str(), "1/0", "problem.time.load_speed_m_s: expected a limit above 0, not"},
+       {load.c_str(), "px", "problem.time.load_speed_m_s: 'px', column 3: expected a known name"},
+       {load.c_str(), 1, "problem.time.load_speed_m_s: expected a string"},
+       {load.c_str(), nullptr, "problem.time.load_speed_m_s: expected a string"},
+       {speed.c_str(), repeated(5, "1"), "problem.time.winch_speed_m_s: expected an array of 6"},
+       {speed.c_str(), repeated(6, nullptr), "problem.time.winch_speed_m_s: expected a limit of some cable"},
+       {speed.c_str(), "1", "problem.time.winch_speed_m_s: expected an array of 6"},
+       {third.c_str(), "0", "problem.time.winch_speed_m_s[2]: expected a limit above 0"},
+       {box.c_str(), {"1", "1"}, "problem.load.items[0].weight.inertia_box_m: expected an array of 3"},
+       {box.c_str(), nullptr, "problem.load.items[0].weight.inertia_box_m: expected an array of 3"},
+       {side.c_str(), "0", "problem.load.items[0].weight.inertia_box_m[2]: expected a side > 0"},
+       {side.c_str(), "pi", "problem.load.items[0].weight.inertia_box_m[2]: got 'pi', expected such a decimal"},
+       {moment_box.c_str(), {"1", "1", "1"}, "problem.load.items[3].moment: expected no key 'inertia_box_m'"}});
+  Json with_bodies_version = proved();
+  with_bodies_version["version"] = 6;
+  EXPECT_EQ(message(sealed(with_bodies_version)).find("version: expected an integer from 4 to 4"), 0U);
+}
+
+TEST(Reader, NamesWhatIsWrongWithAMove) {
+  const auto law = [](std::initializer_list<double> controls) { return numbers(controls); };
+  expect_messages(
+      moving(),
+      {{"/claim", std::string(kProvedClaim) + kItemsClause, "claim: expected the text that belongs"},
+       {"/claim", std::string(kProvedClaim) + kItemsClause + kMoveRefutedClause, "claim: expected the text"},
+       {"/path/timing", nullptr, "path.timing: expected an object"},
+       {"/path/timing", Json::array(), "path.timing: expected an object"},
+       {"/path/timing/step_s", kRemoved, "path.timing: expected the key 'step_s'"},
+       {"/path/timing/start_s", "0x0p+0", "path.timing: expected no key 'start_s'"},
+       {"/path/timing/step_s", "0.5", "path.timing.step_s: got '0.5', expected a finite binary64"},
+       {"/path/timing/step_s", "0x0p+0", "path.timing: expected a law of a move along the path, not a law in time"},
+       {"/path/timing/step_s", "-0x1p-1", "path.timing: expected a law of a move along the path, not a law in time"},
+       {"/path/timing/controls", law({0, 0, 0}), "path.timing.controls: expected 4 to 20000 control values"},
+       {"/path/timing/controls", repeated(20001, "0x0p+0"), "path.timing.controls: expected 4 to 20000"},
+       {"/path/timing/controls/1", "nan", "path.timing.controls[1]: got 'nan', expected a finite binary64"},
+       {"/path/timing/controls", law({0, 0, 0, 2, 2, 2}), "not a move that does not rest where it has to"},
+       {"/path/timing/controls", law({0, 0, 0, 1, 1, 1}), "not a law in time of another path"},
+       {"/path/timing/controls", law({0, 0, 0, 1, 1, 1, 3, 3, 3}), "not a law in time of another path"},
+       {"/path/timing/controls", law({0, 0, 0, 1.5, 1, 1, 1, 2, 2, 2}), "not a law in time that goes back"},
+       {"/stretches", Json::array(), "stretches: expected null where the problem has limits in time"}});
+  Json at_rest = moving();
+  at_rest["path"].erase("timing");
+  at_rest["claim"] = std::string(kProvedClaim) + kItemsClause;
+  EXPECT_EQ(message(sealed(at_rest)), "path: expected the key 'timing' of a proved move");
+  Json timeless = moving();
+  timeless["version"] = 4;
+  timeless["problem"].erase("time");
+  timeless["problem"]["load"]["items"][0]["weight"].erase("inertia_box_m");
+  EXPECT_EQ(message(sealed(timeless)), "path.timing: expected no law in time where the problem has no limits in time");
+
+  Json with_constraint = constrained();
+  with_constraint["version"] = 6;
+  with_constraint["problem"]["time"] = limits_in_time();
+  with_constraint["path"]["timing"] = moving()["path"]["timing"];
+  with_constraint["claim"] = std::string(kProvedClaim) + kMoveClause;
+  EXPECT_EQ(message(sealed(with_constraint)), "path.timing: expected no law in time where there are constraints");
+
+  Json of_lengths = length_controlled();
+  of_lengths["version"] = 6;
+  of_lengths["problem"]["time"] = limits_in_time();
+  of_lengths["claim"] = std::string(kRefutedClaim) + kAtRestClause;
+  EXPECT_EQ(message(sealed(of_lengths)), "none") << "a path without a law may have any interpolation";
+  of_lengths["path"]["timing"] = moving()["path"]["timing"];
+  of_lengths["claim"] = std::string(kRefutedClaim) + kMoveRefutedClause;
+  EXPECT_EQ(message(sealed(of_lengths)),
+            "path.timing: expected no law in time but of a path that is straight, or a spline, in the parameters");
+
+  Json nothing = moving();
+  nothing["verdict"] = "undecided";
+  nothing["claim"] = kUndecidedClaim;
+  nothing["margins"] = Json::object();
+  nothing["segments"] = Json::array();
+  nothing["undecided"] = {{"reason", "no time"}, {"segment", nullptr}, {"box", nullptr}};
+  EXPECT_EQ(message(sealed(nothing)), "none");
+  nothing["path"].erase("timing");
+  EXPECT_EQ(message(sealed(nothing)), "none");
+}
+
+TEST(Reader, NamesWhatIsWrongWithTheWitnessOfAMove) {
+  const Json loads = refuted_by_loads()["witness"]["loads"];
+  expect_messages(refuted_move(),
+                  {{"/claim", std::string(kRefutedClaim) + kItemsClause, "claim: expected the text that belongs"},
+                   {"/claim", std::string(kRefutedClaim) + kItemsClause + kAtRestClause, "claim: expected the text"},
+                   {"/claim", std::string(kRefutedClaim) + kItemsClause + kMoveClause, "claim: expected the text"},
+                   {"/witness/kind", "winch_acceleration", "witness.kind: expected a limit that the problem states"},
+                   {"/witness/kind", "jerk", "witness.kind: expected a kind of the format"},
+                   {"/witness/cable", 1, "witness.kind: expected a limit that the problem states"},
+                   {"/witness/cable", 2, "witness.limit: expected the limit in the problem"},
+                   {"/witness/cable", 7, "witness.cable: expected an integer from 1 to 6"},
+                   {"/witness/cable", kRemoved, "witness: expected the key 'cable'"},
+                   {"/witness/limit", "2000", "witness.limit: expected the limit in the problem"},
+                   {"/witness/limit", nullptr, "witness.limit: expected a string"},
+                   {"/witness/value", {"4e3", "3e3"}, "witness.value: expected ends in order"},
+                   {"/witness/proof", kRemoved, "witness: expected the key 'proof'"},
+                   {"/witness/deviation", {{"wrench", "1"}}, "witness: expected no key 'deviation'"},
+                   {"/witness/loads", loads, "witness: expected no key 'loads'"}});
+  Json of_tension = refuted_move();
+  of_tension["witness"] = witness();
+  expect_messages(of_tension, {{"/witness/loads", loads, "witness: expected no key 'loads'"},
+                               {"/witness/deviation", {{"wrench", "1"}}, "witness: expected no key 'deviation'"}});
+  Json at_rest = refuted_move();
+  at_rest["path"].erase("timing");
+  at_rest["claim"] = std::string(kRefutedClaim) + kItemsClause + kAtRestClause;
+  EXPECT_EQ(message(sealed(at_rest)), "witness.kind: expected no limit in time where the path has no law in time");
+  at_rest["witness"] = witness();
+  at_rest["witness"]["loads"] = loads;
+  EXPECT_EQ(message(sealed(at_rest)), "none");
+  at_rest["claim"] = std::string(kRefutedClaim) + kItemsClause;
+  EXPECT_EQ(message(sealed(at_rest)).find("claim: expected"), 0U);
+}
+
 TEST(Reader, NamesAnotherVersionFirst) {
   Json json = proved();
   json["version"] = 3;
   json["segments"][0]["boxes"] = {{"0", "1"}};
-  EXPECT_EQ(message(sealed(json)).find("version: expected 4 or 5, got 3"), 0U);
+  EXPECT_EQ(message(sealed(json)).find("version: expected 4, 5 or 6, got 3"), 0U);
 }
 
 TEST(Reader, NamesWhatIsWrongWithAProvedCertificate) {

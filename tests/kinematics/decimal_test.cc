@@ -130,13 +130,35 @@ TEST(Units, ConvertExactly) {
   EXPECT_EQ(to_si("34 deg"), "(34)*pi/180");
   EXPECT_EQ(to_si("0 deg"), "0");
   EXPECT_EQ(to_si("-1.5 rad"), "-1.5");
+  EXPECT_EQ(to_si("5 deg/s"), "(5)*pi/180");
+  EXPECT_EQ(to_si("5deg/s^2"), "(5)*pi/180");
+  EXPECT_EQ(to_si("0.1 rad/s"), "0.1");
+  EXPECT_EQ(to_si("80 cm/s^3"), "0.8");
+  EXPECT_EQ(to_si("60 kW"), "60000");
+  EXPECT_EQ(to_si("3 mW"), "0.003");
+  EXPECT_EQ(to_si("0.1 kHz"), "100");
 }
 
 TEST(Units, AreSplitOnlyFromValues) {
   EXPECT_EQ(split_unit("alpha1 - pi rad").first, "alpha1 - pi");
   EXPECT_EQ(split_unit("(1+2)mm").first, "(1+2)");
+  EXPECT_EQ(split_unit("20 m/min").second->dimension, Dimension::kSpeed);
+  EXPECT_EQ(split_unit("20 min").second->dimension, Dimension::kTime);
   for (const char* text : {"zs - rs*sin", "r2m", "m", "x*m", "10"}) {
     EXPECT_FALSE(split_unit(text).second) << text;
+  }
+}
+
+TEST(Units, OfSiHaveTheFactorOne) {
+  for (int i = 0; i <= static_cast<int>(Dimension::kAngularAcceleration); ++i) {
+    const auto dimension = static_cast<Dimension>(i);
+    const Unit unit = si_unit(dimension);
+    EXPECT_EQ(unit.dimension, dimension) << unit.name;
+    EXPECT_EQ(unit.factor.text(), "1") << unit.name;
+    EXPECT_EQ(unit.divisor, 1) << unit.name;
+    EXPECT_FALSE(unit.is_degree) << unit.name;
+    EXPECT_TRUE(unit_names(dimension).starts_with(unit.name)) << "the first of messages";
+    EXPECT_NE(dimension_name(dimension), std::string()) << unit.name;
   }
 }
 
