@@ -83,12 +83,16 @@ class DigestedStream : private std::streambuf, public std::istream {
 
 }  // namespace
 
-PathSource::PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law)
-    : input_(kept_if_pipe(std::move(input))), case_problem_(problem) {
+PathSource::PathSource(const Problem& stated, PathInput input, std::optional<Interpolation> law)
+    : input_(kept_if_pipe(std::move(input))), case_problem_(without_time(stated)) {
+  const Problem& problem = case_problem_;
   if (!input_.text && is_certificate_name(path_)) {
     read_certificate_path(law);
     waypoints_ = certificate_->waypoints.size();
-    description_ = fmt::format("a certificate's path, {}\n", plural(waypoints_, "waypoint"));
+    description_ = fmt::format("a certificate's path{}, {}\n",
+                               certificate_->timing ? " without its law in time, which no audit is of" : "",
+                               plural(waypoints_, "waypoint"));
+    certificate_->timing.reset();
   } else {
     PathFile file = open_file();
     header_ = file.header();

@@ -51,7 +51,7 @@ class PathSource {
   /// The first segment of the path, read once more.
   [[nodiscard]] Path first_segment() const;
 
-  /// The case's problem without its query, in the case's space or in the space of all poses.
+  /// The case's problem without its query and its limits in time, in the case's space or in the space of all poses.
   [[nodiscard]] const Problem& problem() const { return problem_; }
   [[nodiscard]] Interpolation law() const { return law_; }
   [[nodiscard]] std::size_t waypoints() const { return waypoints_; }  ///< with the copy of a single one

@@ -80,7 +80,9 @@ bool try_no_path(const Case& the_case, const PlannedCaseOptions& options, const 
   SeparationOptions separation;
   separation.seconds = options.no_path_seconds;
   separation.stop = stop;
-  result.no_path = seek_no_path(the_case, separation, options.key);
+  Case at_rest = the_case;  // the claim is about poses
+  at_rest.problem = without_time(std::move(at_rest.problem));
+  result.no_path = seek_no_path(at_rest, separation, options.key);
   if (result.no_path->answer != NoPathAttempt::Answer::kApart) return false;
   result.text = result.no_path->certificate;
   result.checked = recheck(result.text, options.max_seconds, stop, meshes_of(the_case.problem));
@@ -94,7 +96,7 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
                       const Progress& progress, const std::stop_token& stop) {
   const Decoration decoration = read_meshes(the_case.decoration);
   PlannedCase result;
-  result.plan = planner.plan(progress, stop);
+  result.plan = planner.plan(progress, stop, options.move);
   if (options.grow) result.growth = grow(the_case, planner, options, progress, stop);
   if (try_no_path(the_case, options, stop, result)) return result;
   const Plan& plan = result.plan;
@@ -102,7 +104,7 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
   nlohmann::json& illustration = certificate.illustration;
   illustration = illustrate(the_case.problem, planner.atlas(), plan.statistics);
   add_stated(illustration, the_case, decoration);
-  if (options.headroom_seconds > 0 && !stop.stop_requested()) {
+  if (options.headroom_seconds > 0 && !stop.stop_requested() && !the_case.problem.time) {
     const DecimalText wrench_scale = certificate.margins ? certificate.margins->wrench_scale : "";
     result.headroom =
         plan_headroom(the_case, plan, wrench_scale, options.headroom_seconds, options.headroom_progress, stop);

@@ -14,6 +14,7 @@
 #include "certify/path_proof.h"
 #include "kinematics/pose_conversion.h"
 #include "kinematics/pose_sampler.h"
+#include "kinematics/time_law.h"
 #include "problem/decimal.h"
 
 namespace taut {
@@ -151,7 +152,11 @@ Certificate prove_waypoints(const Problem& problem, Path path, long max_bits, co
   }
   require_proper(path, problem.space);
 
-  Problem audited = problem;
+  if (path.timing) {
+    if (!problem.time) fail("timing", "got a law in time, expected a problem that states limits in time");
+    if (const std::string text = complaint(path); !text.empty()) fail("timing", text);
+  }
+  Problem audited = path.timing ? problem : without_time(problem);
   audited.query.clear();
   if (has_poses(law)) audited.space = coordinate_space();
   if (!has_poses(law) && !problem.space.constraints.empty()) {

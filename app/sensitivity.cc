@@ -23,8 +23,11 @@ Verdict path_verdict(const Problem& problem, const Path& path, const std::stop_t
   return has(Verdict::kRefuted) ? Verdict::kRefuted : has(Verdict::kUndecided) ? Verdict::kUndecided : Verdict::kProved;
 }
 
-CaseSensitivity examine(const Problem& problem, const Path& path, Headroom::Subject subject, const Unit& length_unit,
+/// Of a path alone, whatever limits in time there are.
+CaseSensitivity examine(const Problem& stated, Path path, Headroom::Subject subject, const Unit& length_unit,
                         double seconds, const SensitivityProgress& progress, const std::stop_token& stop) {
+  const Problem problem = without_time(stated);
+  path.timing.reset();
   CaseSensitivity result;
   result.segments = path.segments();
   result.verdict = path_verdict(problem, path, stop);

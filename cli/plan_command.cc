@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "app/plan.h"
 #include "app/report.h"
 #include "base/files.h"
+#include "base/input_error.h"
 #include "base/plural.h"
 #include "base/sanitize.h"
 #include "certificate/signature.h"
@@ -27,6 +29,7 @@
 #include "cli/terminal.h"
 #include "cli/verdict_output.h"
 #include "path_io/controller_csv.h"
+#include "path_io/move_tables.h"
 #include "path_io/path_csv.h"
 #include "reports/page/html_report.h"
 #include "reports/summary/bodies_statement.h"
@@ -37,6 +40,8 @@
 
 namespace taut {
 namespace {
+
+constexpr double kLeastSpeed = 1e-3;  ///< share that --speed takes
 
 /// A verdict in lower case, as scripts know it, and what is said of it.
 struct Said {
@@ -77,6 +82,13 @@ Said said(const Case& the_case, const PlannedCase& planned) {
     case Verdict::kProved: {
       const checker::Theorem& theorem = checked.theorem.value();
       const bool is_spline = plan.path.interpolation == Interpolation::kCubicBSpline;
+      if (plan.move) {
+        return {"proved",
+                fmt::format("the move is wrench-feasible with its inertia, within its limits in time, and clear of "
+                            "singularities at every time, in {} in {}{}.",
+                            plural(theorem.counts().segments, is_spline ? "spline segment" : "segment"),
+                            plural(theorem.counts().boxes, "box"), clear_bodies(the_case.problem.bodies, "; "))};
+      }
       return {
           "proved",
           fmt::format(
@@ -148,6 +160,54 @@ nlohmann::json growth_json(const std::optional<Growth>& growth) {
           {"time_is_up", growth->time_is_up}};
 }
 
+/// Null unless the path has a time law.
+nlohmann::json move_json(const PlannedCase& planned) {
+  if (!planned.plan.move) return {};
+  const MoveStatistics& move = *planned.plan.move;
+  const auto optional = [](const std::optional<double>& x) { return x ? nlohmann::json(*x) : nlohmann::json(); };
+  nlohmann::json greatest;
+  if (move.greatest) {
+    greatest = {{"proved_share", move.greatest->proved}, {"refuted_share", optional(move.greatest->refuted)}};
+  }
+  return {{"duration_s", move.duration_s},
+          {"planned_s", move.planned_s},
+          {"fastest_s", optional(move.fastest_s)},
+          {"speed_share", move.speed_share},
+          {"greatest_speed", greatest},
+          {"tries", move.tries},
+          {"plan_seconds", move.plan_seconds},
+          {"prove_seconds", move.prove_seconds}};
+}
+
+/// "15.7 s", with as many digits as say something.
+std::string duration_text(double seconds) { return fmt::format("{:.{}f} s", seconds, seconds < 100 ? 2 : 1); }
+
+/// Of a move that is proved: how long it takes, and how fast it might be.
+std::vector<std::string> move_sentences(const Case& the_case, const MoveStatistics& move) {
+  constexpr double kSame = 1e-4;
+  std::vector<std::string> result;
+  std::string text = "Move: " + duration_text(move.duration_s);
+  if (std::abs(move.speed_share - 1) > kSame) {
+    text += fmt::format(", at {:.4g} % of the speed that was planned, {}", 100 * move.speed_share,
+                        duration_text(move.planned_s));
+  }
+  if (move.fastest_s) {
+    text += fmt::format("; without a limit of jerk the fastest law on this path takes about {} (in floating point)",
+                        duration_text(*move.fastest_s));
+  }
+  result.push_back(text + ".");
+  if (!move.greatest) return result;
+  const GreatestSpeed& greatest = *move.greatest;
+  text = fmt::format("Greatest speed of this law: {:.4g} % of what was planned is proved", 100 * greatest.proved);
+  if (greatest.refuted) {
+    const PathWitness& witness = greatest.witness.value();
+    text += fmt::format(", {:.4g} % is refuted: on segment {} of the path {}", 100 * *greatest.refuted,
+                        witness.at.index, violation_text(witness, the_case.problem, DisplayUnits(the_case.units)));
+  }
+  result.push_back(text + ".");
+  return result;
+}
+
 /// Null unless it was tried to prove that no path exists.
 nlohmann::json no_path_json(const std::optional<NoPathAttempt>& attempt) {
   if (!attempt) return {};
@@ -192,6 +252,7 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
                            {"headroom", headroom_json(outcome.planned.headroom)},
                            {"as_items", to_json(outcome.planned.as_items)},
                            {"growth", growth_json(outcome.planned.growth)},
+                           {"move", move_json(outcome.planned)},
                            {"load", to_json(load_statement(the_case))},
                            {"bodies", stated_bodies_json(the_case.bodies)},
                            {"warnings", the_case.warnings},
@@ -240,6 +301,9 @@ void print_result(const Case& the_case, const Outcome& outcome, const std::optio
     print_verdict(checked.theorem ? "NO PATH EXISTS" : "UNCHECKED", text);
   }
   if (const std::string may_be = hint(the_case, planned.plan); !may_be.empty()) print_wrapped(may_be);
+  if (outcome.is_proved() && planned.plan.move) {
+    for (const std::string& sentence : move_sentences(the_case, *planned.plan.move)) print_wrapped(sentence);
+  }
   print_search(outcome, units);
   if (checked.outcome != checker::Outcome::kUnchecked) {
     if (planned.as_items) print_wrapped(sentence(*planned.as_items, units));
@@ -270,6 +334,40 @@ std::string atlas_sentence(const PlannedCase& planned, int charts, const std::st
       plural(static_cast<std::size_t>(growth.complete_charts), "chart"));
 }
 
+/// Reads "40%", "40 %" or "0.4".
+double read_speed(const std::string& typed) {
+  constexpr double kPercent = 100;
+  std::string text = typed;
+  const bool is_percent = text.ends_with('%');
+  if (is_percent) text.pop_back();
+  while (text.ends_with(' ')) text.pop_back();
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [read, error] = std::from_chars(text.data(), end, value);
+  if (is_percent) value /= kPercent;
+  if (error != std::errc() || read != end || !(value >= kLeastSpeed && value <= 1)) {
+    throw InputError(ErrorCode::kUse,
+                     fmt::format("--speed: got '{}', expected a share of the planned speed from {} % to 100 %, such "
+                                 "as 40%",
+                                 excerpt(typed), kPercent * kLeastSpeed));
+  }
+  return value;
+}
+
+/// Checks that the case has what the options of a move are about, and that they can be read.
+void require_move(const Case& the_case, const PlanArguments& arguments) {
+  if (arguments.speed) static_cast<void>(read_speed(*arguments.speed));
+  const char* const option = arguments.max_speed ? "--max-speed"
+                             : arguments.speed   ? "--speed"
+                             : arguments.timed   ? "--timed"
+                                                 : nullptr;
+  if (option == nullptr || the_case.problem.time) return;
+  throw InputError(ErrorCode::kUse,
+                   fmt::format("{}: got a case without the key 'time', expected one that says what winches and load "
+                               "may do (docs/case-format.md)",
+                               option));
+}
+
 /// Plans, with a progress line.
 PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& arguments,
                  const std::optional<SigningKey>& key, const std::stop_token& stop) {
@@ -280,7 +378,8 @@ PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& ar
       const std::string charts = plural(static_cast<std::size_t>(at.charts), "chart");
       return growing ? fmt::format("growing the atlas: {}, {:.0f} of at most {:.6g} s", charts, growing->seconds(),
                                    arguments.grow_seconds)
-                     : "planning: " + charts;
+             : at.move_tries > 0 ? fmt::format("proving the move: law {}", at.move_tries)
+                                 : "planning: " + charts;
     });
   };
   PlannedCaseOptions options;
@@ -297,6 +396,8 @@ PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& ar
   };
   options.headroom_seconds = arguments.headroom_seconds;
   options.no_path_seconds = arguments.no_path_seconds;
+  if (arguments.speed) options.move.speed_share = read_speed(*arguments.speed);
+  options.move.seeks_greatest_speed = arguments.max_speed;
   options.headroom_progress = [&](std::size_t done, std::size_t all) {
     line.show([&] { return headroom_progress_text(done, all); });
   };
@@ -328,6 +429,13 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments) {
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
   command.add_flag("--no-report", arguments.no_report, "write no report.html");
+  command.add_flag("--timed", arguments.timed, "plan a move in time; the case has to have the key 'time'");
+  CLI::Option* speed = command.add_option("--speed", arguments.speed,
+                                          "share of the planned speed at which the move is run, such as 40%");
+  command
+      .add_flag("--max-speed", arguments.max_speed,
+                "run the move as fast as its law is proved, and say what stands in the way of more")
+      ->excludes(speed);
   add_headroom_option(command, arguments.headroom_seconds);
   command
       .add_option("--no-path", arguments.no_path_seconds,
@@ -345,6 +453,7 @@ int run_plan(const PlanArguments& arguments) {
     case_.planner.max_seconds = arguments.budget_seconds;
     case_.planner.has_budget = true;
   }
+  require_move(case_, arguments);
   const ControllerStep step = read_controller_step(arguments.step, "--step");
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
   const std::string date = report_date();
@@ -378,6 +487,12 @@ int run_plan(const PlanArguments& arguments) {
     outcome.lengths = planner.measure(planned.plan.path);
     const Path& path = planned.plan.path;
     files.push_back({out / "controller.csv", controller_csv(case_.problem, path, step, checked.sha256)});
+    if (path.timing) {
+      MoveTables tables = move_tables(case_.problem, path, case_.move.rate_Hz, checked.sha256);
+      files.push_back({out / "winches.csv", std::move(tables.winches_csv)});
+      files.push_back({out / "poses.csv", std::move(tables.poses_csv)});
+      files.push_back({out / "poses.tum", std::move(tables.poses_tum)});
+    }
     files.push_back({out / "path.csv", path_csv(case_.problem, path, checked.sha256)});  // last
   }
   write_whole(files, remove_first);
@@ -392,7 +507,9 @@ int run_plan(const PlanArguments& arguments) {
   }
   print_result(case_, outcome, context, report_options);
   print_wrapped(fmt::format("Written to {}: {}certificate.json{}", sanitize(out.string()),
-                            outcome.is_proved() ? "path.csv, controller.csv, " : "",
+                            !outcome.is_proved()       ? ""
+                            : planned.plan.path.timing ? "path.csv, controller.csv, winches.csv, poses.csv, poses.tum, "
+                                                       : "path.csv, controller.csv, ",
                             arguments.no_report ? "" : ", report.html"));
   if (saves_atlas) print_wrapped(atlas_sentence(planned, planner.atlas().size(), arguments.save_atlas));
   return exit_code(checked);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "app/headroom.h"
@@ -20,8 +21,11 @@ struct PlanArguments {
   std::string step = ControllerStep().text;  ///< of controller.csv
   std::string key;                           ///< file of the private key that signs, or empty
   bool grow = false;
-  double grow_seconds = 300;  ///< that growing the atlas may take
-  double budget_seconds = 0;  ///< 0: the case's
+  double grow_seconds = 300;         ///< that growing the atlas may take
+  double budget_seconds = 0;         ///< 0: the case's
+  bool timed = false;                ///< the case has to state limits in time
+  std::optional<std::string> speed;  ///< share of the planned speed, as typed
+  bool max_speed = false;            ///< how fast the move could be run
   bool json = false;
   bool no_report = false;
   double max_seconds = kCheckSeconds;          ///< that the checker may take

@@ -71,6 +71,7 @@ Measurement measurement(const json& summary) {
     take("angle", summary, "angle_rad");
     take("cost", summary, "cost");
     take("charts", summary, "charts");
+    take("duration", summary.value("move", json()), "duration_s");
   }
   return result;
 }
@@ -383,6 +384,7 @@ namespace {
 std::string unit_suffix(const std::string& quantity) {
   if (quantity == "tension_margin") return "_N";
   if (quantity == "length_margin" || quantity == "clearance_margin" || quantity == "length") return "_m";
+  if (quantity == "duration") return "_s";
   return quantity == "angle" ? "_rad" : "";
 }
 

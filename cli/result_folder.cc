@@ -14,6 +14,7 @@
 #include "base/input_error.h"
 #include "base/sanitize.h"
 #include "path_io/controller_csv.h"
+#include "path_io/move_tables.h"
 
 namespace taut {
 namespace {
@@ -97,6 +98,9 @@ std::vector<fs::path> outdated_results(const fs::path& folder, const ResultInput
   std::vector<fs::path> result = {folder / "path.csv"};
   // What only has the name of a result of ours is the user's.
   if (begins_with(folder / "controller.csv", kControllerFileBegin)) result.push_back(folder / "controller.csv");
+  for (const char* table : {"winches.csv", "poses.csv", "poses.tum"}) {
+    if (begins_with(folder / table, kMoveTableBegin)) result.push_back(folder / table);
+  }
   const fs::path file = folder / kInputsFile;
   if (begins_with(file, kInputsBegin) && !is_about(file, inputs)) result.push_back(file);
   return result;

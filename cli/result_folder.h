@@ -12,8 +12,8 @@ namespace taut {
 
 /// Names of all files that a plan or an audit may write into its folder, path.csv as the last: it is never found beside
 /// a certificate that is not its own.
-inline constexpr std::array<const char*, 4> kResultFiles = {"certificate.json", "report.html", "controller.csv",
-                                                            "path.csv"};
+inline constexpr std::array<const char*, 7> kResultFiles = {
+    "certificate.json", "report.html", "controller.csv", "winches.csv", "poses.csv", "poses.tum", "path.csv"};
 
 /// What results are about. Two runs have the same inputs if they ran one command on files of the same names and places.
 class ResultInputs {
@@ -41,8 +41,8 @@ class ResultInputs {
                                                        const ResultInputs& inputs);
 
 /// The files of earlier results in `folder` that must be gone before new ones are renamed into place, path.csv as the
-/// last of them: path.csv and controller.csv, which must never stand beside a certificate that is not their own, and
-/// inputs.txt where it is about other inputs.
+/// last of them: path.csv, controller.csv and tables of a move, which must never stand beside a certificate that is not
+/// their own, and inputs.txt where it is about other inputs.
 [[nodiscard]] std::vector<std::filesystem::path> outdated_results(const std::filesystem::path& folder,
                                                                   const ResultInputs& inputs);
 

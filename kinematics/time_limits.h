@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kinematics/model.h"
+#include "problem/problem.h"
 
 namespace taut {
 
@@ -14,6 +15,7 @@ struct TimeLimits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   std::array<double, kCables> winch_speed{kNone, kNone, kNone, kNone, kNone, kNone};         ///< |L̇_i| [m/s]
   std::array<double, kCables> winch_acceleration{kNone, kNone, kNone, kNone, kNone, kNone};  ///< |L̈_i| [m/s²]
+  std::array<double, kCables> winch_power{kNone, kNone, kNone, kNone, kNone, kNone};         ///< f_i |L̇_i| [W]
   double speed = kNone;                                                                      ///< [m/s]
   double acceleration = kNone;                                                               ///< [m/s²]
   double angular_speed = kNone;                                                              ///< [rad/s]
@@ -21,15 +23,46 @@ struct TimeLimits {
   double jerk = kNone;  ///< of P_m [m/s³], which a law is shaped by
 };
 
+/// What a problem states, in floating point: for proposals. Nothing limits a jerk.
+[[nodiscard]] TimeLimits make_time_limits(const Problem& problem);
+
 /// What a limit in time is of.
 enum class RateKind {
   kWinchSpeed,
   kWinchAcceleration,
+  kWinchPower,
   kLoadSpeed,
   kLoadAcceleration,
   kLoadAngularSpeed,
   kLoadAngularAcceleration
 };
+
+inline constexpr std::array kRateKinds = {RateKind::kWinchSpeed,
+                                          RateKind::kWinchAcceleration,
+                                          RateKind::kWinchPower,
+                                          RateKind::kLoadSpeed,
+                                          RateKind::kLoadAcceleration,
+                                          RateKind::kLoadAngularSpeed,
+                                          RateKind::kLoadAngularAcceleration};
+
+/// As certificates name it.
+[[nodiscard]] constexpr const char* name(RateKind kind) {
+  switch (kind) {
+    case RateKind::kWinchSpeed: return "winch_speed";
+    case RateKind::kWinchAcceleration: return "winch_acceleration";
+    case RateKind::kWinchPower: return "winch_power";
+    case RateKind::kLoadSpeed: return "load_speed";
+    case RateKind::kLoadAcceleration: return "load_acceleration";
+    case RateKind::kLoadAngularSpeed: return "load_angular_speed";
+    case RateKind::kLoadAngularAcceleration: break;
+  }
+  return "load_angular_acceleration";
+}
+
+/// Whether it is of one winch, not of the load.
+[[nodiscard]] constexpr bool is_of_winch(RateKind kind) {
+  return kind == RateKind::kWinchSpeed || kind == RateKind::kWinchAcceleration || kind == RateKind::kWinchPower;
+}
 
 struct RateId {
   RateKind kind = RateKind::kWinchSpeed;

@@ -135,7 +135,7 @@ double search_weight(Strategy strategy) {
 }
 
 AtlasKey atlas_key(const Case& the_case) {
-  nlohmann::json problem = to_json(the_case.problem);
+  nlohmann::json problem = to_json(without_time(the_case.problem));  // charts are of poses at rest
   problem.erase("name");
   problem.erase("query");
   return {sha256(problem), {.clearance = the_case.planner.clearance}, atlas_options(the_case.planner)};
@@ -181,9 +181,9 @@ class Planner::Edges {
     return accepted;
   }
 
-  /// The proof of an edge, if one was made and succeeded; else null.
+  /// The proof of an edge at rest, if one was made and succeeded; else null.
   [[nodiscard]] const SegmentProof* find(const Segment& segment) const {
-    if (segment.law != Interpolation::kStraight) return nullptr;
+    if (segment.law != Interpolation::kStraight || segment.timing != nullptr) return nullptr;
     const Waypoint& a = *segment.control[0];
     const Waypoint& b = *segment.control[1];
     const auto shifted = [](int half_turns) { return half_turns != 0; };
@@ -407,7 +407,7 @@ Reason Planner::no_path_reason(const SearchResult& result, std::size_t leg) cons
   return {};
 }
 
-Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
+Plan Planner::plan(const Progress& progress, const std::stop_token& stop, const MoveRequest& request) {
   const auto start = begin_ = Clock::now();
   Plan result;
   if (auto answer = judge_query(stop)) {
@@ -426,6 +426,7 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
     }
   }
   set_tubes(result.path, prover_);
+  if (case_.problem.time && result.proof.verdict == Verdict::kProved) make_move(request, progress, stop, result);
   PlanStatistics& statistics = result.statistics;
   statistics.cost_measure = length_.measure();
   statistics.cost_unit = length_.unit();
@@ -433,6 +434,20 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
   statistics.charts_stored = atlas_file_ ? atlas_file_->size() : 0;
   statistics.plan_seconds = seconds_since(start) - statistics.prove_seconds - statistics.smooth_seconds;
   return result;
+}
+
+/// Gives the path, proved at rest, a time law; from then on the plan's proof is that of the move.
+void Planner::make_move(const MoveRequest& request, const Progress& progress, const std::stop_token& stop,
+                        Plan& plan) const {
+  const auto show = [&](int tries) {
+    if (progress) progress({atlas_->size(), 0, tries + 1});
+  };
+  PlannedMove move = plan_move(case_, prover_, plan.path, request, stop, show);
+  plan.path = std::move(move.path);
+  plan.proof = std::move(move.proof);
+  if (plan.proof.verdict == Verdict::kUndecided && stop.stop_requested()) plan.proof.reason = Undecided::kInterrupted;
+  plan.statistics.prove_seconds += move.statistics.prove_seconds;
+  plan.move = std::move(move.statistics);
 }
 
 /// Seeks a path on edges that look clear and proves it. If that fails, seeks one on proved edges. An anytime search

@@ -9,6 +9,8 @@
 // A* on a budget, or over more than three parameters, is an anytime search (atlas/search.h): each path that it finds is
 // pulled taut on proved edges, and the shortest such path is the result. The budget only ends the search for a shorter
 // one, and so does a path that is within a thousandth of the shortest motion without limits.
+//
+// A path is sought, and first proved, at rest. Where the case has limits in time, it then becomes a move.
 #pragma once
 
 #include <chrono>
@@ -24,6 +26,7 @@
 #include "atlas/search.h"
 #include "case/case_file.h"
 #include "certify/path_proof.h"
+#include "planner/move.h"
 #include "planner/path_length.h"
 
 namespace taut {
@@ -51,6 +54,7 @@ struct Plan {
   PlanStatistics statistics;
   std::optional<std::size_t> refuted_waypoint;    ///< index in the query of the waypoint that `path` then consists of
   std::optional<std::size_t> undecided_waypoint;  ///< index in the query of the waypoint that is neither
+  std::optional<MoveStatistics> move;             ///< where `path` has a time law
 };
 
 struct MotionLengths {
@@ -61,6 +65,7 @@ struct MotionLengths {
 struct PlanProgress {
   int charts = 0;
   int edges_checked = 0;
+  int move_tries = 0;  ///< time laws that were tried; 0 before there is a path
 };
 
 using Progress = std::function<void(const PlanProgress&)>;
@@ -74,9 +79,10 @@ class Planner {
   explicit Planner(const Case& the_case, const std::filesystem::path& atlas_file = {});
 
   /// Plans through the query's waypoints in order. Charts made by an earlier call are used again. If a stored atlas
-  /// leads to no path, a new atlas is begun: a poor file costs time, never the answer.
-  /// @throws InputError if the atlas file turns out to be damaged.
-  [[nodiscard]] Plan plan(const Progress& progress, const std::stop_token& stop);
+  /// leads to no path, a new atlas is begun: a poor file costs time, never the answer. Where the problem has limits in
+  /// time, the path is proved at rest first and then gets a time law (planner/move.h): the plan's proof is the move's.
+  /// @throws InputError if the atlas file turns out to be damaged; as plan_move()
+  [[nodiscard]] Plan plan(const Progress& progress, const std::stop_token& stop, const MoveRequest& request = {});
 
   /// Grows the atlas around all its charts, until nothing is left to cover, the case's max_charts are made, or `stop`
   /// is requested. @returns whether nothing is left to cover.
@@ -94,6 +100,7 @@ class Planner {
 
   [[nodiscard]] std::optional<Plan> judge_query(const std::stop_token& stop) const;
   void seek_and_prove(const Progress& progress, const std::stop_token& stop, Plan& result);
+  void make_move(const MoveRequest& request, const Progress& progress, const std::stop_token& stop, Plan& plan) const;
   [[nodiscard]] bool is_anytime() const;
   bool try_plan(const Prover* edge_prover, const Progress& progress, const std::stop_token& stop, Plan& result);
   struct FoundPath {

@@ -32,6 +32,7 @@ struct SmoothPath {
 
 /// A proved spline not longer than `straight` that passes through the waypoints `stops` (ascending indices, including
 /// the first and the last), where the motion comes to rest; nothing if none was found. The motion is C² in s.
+/// @pre `straight` has no time law: proofs are of segments at rest
 [[nodiscard]] std::optional<SmoothPath> smooth(const Path& straight, const std::vector<std::size_t>& stops,
                                                const SmoothProblem& problem);
 

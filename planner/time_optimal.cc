@@ -60,7 +60,9 @@ void add_speed(double square, double limit, std::vector<Row>& rows) {
 /// All rows of one place of a path; empty if the path is not feasible there at rest.
 class RowsAt {
  public:
-  RowsAt(const TimedPathProblem& problem, const PoseSampler& sampler, const PathRates<double>& path) {
+  /// @param loss  null: none
+  RowsAt(const TimedPathProblem& problem, const PoseSampler& sampler, const PathRates<double>& path,
+         const TensionLoss* loss) {
     const TimeLimits& limits = problem.limits;
     const Model<double>& model = sampler.model();
     const Rates<double> by_u = by_time(path, 0.0, 1.0), by_x = by_time(path, 1.0, 0.0);
@@ -76,7 +78,24 @@ class RowsAt {
       add_speed(sqr(winches_u.acceleration[i]), limits.winch_speed[i], rows_);
       add_magnitude(winches_u.acceleration[i], winches_x.acceleration[i], limits.winch_acceleration[i], rows_);
     }
-    add_tensions(problem, model, path, by_u, by_x);
+    add_tensions(problem, model, path, by_u, by_x, loss);
+    for (std::size_t i = 0; i < kCables && is_feasible_; ++i) {
+      power_[i] = {std::abs(winches_u.acceleration[i]), limits.winch_power[i]};
+      if (!std::isfinite(limits.winch_power[i]) || !(greatest_[i].at_rest > 0)) continue;
+      // At rest's tension; what inertia changes is not linear, and left to power_usage().
+      add_speed(sqr(winches_u.acceleration[i]), limits.winch_power[i] / greatest_[i].at_rest, rows_);
+    }
+  }
+
+  /// The largest share of a winch's power that is used, with inertia.
+  [[nodiscard]] double power_usage(double rate, double acceleration) const {
+    double most = 0;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const Greatest& f = greatest_[i];
+      const double tension = std::abs(f.at_rest - f.of_u * acceleration - f.of_x * sqr(rate));
+      most = std::max(most, tension * power_[i].speed * rate / power_[i].limit);
+    }
+    return most;
   }
 
   [[nodiscard]] bool is_feasible_at_rest() const { return is_feasible_; }
@@ -84,29 +103,80 @@ class RowsAt {
 
  private:
   void add_tensions(const TimedPathProblem& problem, const Model<double>& model, const PathRates<double>& path,
-                    const Rates<double>& by_u, const Rates<double>& by_x) {
+                    const Rates<double>& by_u, const Rates<double>& by_x, const TensionLoss* loss) {
     const Statics<double> at_rest = statics(model, path.p, path.r_WP);
     Matrix6<double> inverse;
     double determinant = 0;
     is_feasible_ =
         at_rest.regular && invert(cable_geometry(model, path.p, path.r_WP).force_density, inverse, determinant);
     if (!is_feasible_) return;
-    const Vector6<double> u = inverse * inertial_wrench(problem.bodies, path.r_WP, by_u);
-    const Vector6<double> x = inverse * inertial_wrench(problem.bodies, path.r_WP, by_x);
+    const Vector6<double> w_u = inertial_wrench(problem.bodies, path.r_WP, by_u);
+    const Vector6<double> w_x = inertial_wrench(problem.bodies, path.r_WP, by_x);
+    const Vector6<double> u = inverse * w_u, x = inverse * w_x;
     for (std::size_t i = 0; i < kCables; ++i) {
       const auto row = static_cast<int>(i);
       const double of_u = at_rest.length[i] * u(row), of_x = at_rest.length[i] * x(row);
+      const double greatest = at_rest.tension[i] + at_rest.tension_above[i];
       const double above_low = at_rest.tension[i] - at_rest.tension_below[i] - model.tension_lower[i];
-      const double below_high = model.tension_upper[i] - at_rest.tension[i] - at_rest.tension_above[i];
+      const double below_high = model.tension_upper[i] - greatest;
       is_feasible_ = is_feasible_ && above_low > 0 && below_high > 0;
-      rows_.push_back({of_u, of_x, above_low});
-      rows_.push_back({-of_u, -of_x, below_high});
+      if (loss == nullptr) {
+        rows_.push_back({of_u, of_x, above_low});
+        rows_.push_back({-of_u, -of_x, below_high});
+      } else {
+        const Vector6<double> y = at_rest.length[i] * inverse.row(row).transpose();
+        const double turned_u = loss->turn * size_of_product(y, w_u), turned_x = loss->turn * size_of_product(y, w_x);
+        for (const double sign : {-1.0, 1.0}) {
+          rows_.push_back({of_u + sign * turned_u, of_x + turned_x, left(above_low, loss->newtons[i][0])});
+          rows_.push_back({-of_u + sign * turned_u, -of_x + turned_x, left(below_high, loss->newtons[i][1])});
+        }
+      }
+      greatest_[i] = {greatest, of_u, of_x};
     }
   }
 
+  /// The most that y·w can be for turned forces and moments.
+  static double size_of_product(const Vector6<double>& y, const Vector6<double>& w) {
+    return y.head<3>().norm() * w.head<3>().norm() + y.tail<3>().norm() * w.tail<3>().norm();
+  }
+  /// What of a slack at rest inertia may take, where deviations may take `lost`. A part is left for the proof, which
+  /// bounds what deviations do over boxes; at rest all rows hold.
+  static double left(double slack, double lost) {
+    constexpr double kUsable = 0.9, kLeast = 1e-6;
+    return std::max(kUsable * (slack - lost), kLeast * slack);
+  }
+
+  /// A cable's greatest tension over K: at rest, and what inertia takes from it.
+  struct Greatest {
+    double at_rest = 0, of_u = 0, of_x = 0;
+  };
+  struct Power {
+    double speed = 0;  ///< |L'|
+    double limit = kInfinity;
+  };
+
   std::vector<Row> rows_;
   bool is_feasible_ = false;
+  std::array<Greatest, kCables> greatest_;
+  std::array<Power, kCables> power_;
 };
+
+/// By which factor limits are to be used less at s.
+double tightening_at(const TimedPathProblem& problem, double s) {
+  double factor = 1;
+  for (const auto& part : problem.tightened) {
+    if (part.from <= s && s <= part.to) factor *= part.factor;
+  }
+  return factor;
+}
+
+/// What deviations take at the place of the grid that is nearest to s.
+const TensionLoss* loss_near(const TimedPathProblem& problem, double s) {
+  if (problem.tension_loss.empty()) return nullptr;
+  const double place = std::round(s * static_cast<double>(problem.grid));
+  const auto last = static_cast<double>(problem.tension_loss.size() - 1);
+  return &problem.tension_loss[static_cast<std::size_t>(std::clamp(place, 0.0, last))];
+}
 
 /// The u that rows leave for an x: empty where lower > upper.
 struct Range {
@@ -146,7 +216,7 @@ class Run {
       const std::size_t segment = std::min(i / problem.grid, segments_ - 1);
       const double s = static_cast<double>(i - segment * problem.grid) / static_cast<double>(problem.grid);
       const PathRates<double> at = rates.at(path.segment(first_ + segment), s);
-      RowsAt rows(problem, sampler, at);
+      RowsAt rows(problem, sampler, at, loss_near(problem, static_cast<double>(first_ + segment) + s));
       if (!rows.is_feasible_at_rest()) return false;
       rows_.push_back(std::move(rows).rows());
       const Vector arm = at.r_WP * load_point;
@@ -161,6 +231,13 @@ class Run {
       bends_.push_back({of_point, std::hypot(of_point, (after.second - before.second).norm() / between)});
     }
     shares_.assign(rows_.size(), 1 - problem.slack);
+    for (const auto& [from, to, used] : problem.tightened) {
+      const auto begin = static_cast<double>(first_);
+      for (std::size_t i = 0; i <= count; ++i) {
+        const double s = begin + step_ * static_cast<double>(i);
+        if (from - step_ <= s && s <= to + step_) shares_[i] /= used;
+      }
+    }
     return true;
   }
 
@@ -188,11 +265,14 @@ class Run {
   bool find_fastest() {
     const std::size_t n = rows_.size() - 1;
     std::vector<double> most(n + 1);
+    bool is_bounded = false;
     for (std::size_t i = n + 1; i-- > 0;) {
       most[i] = rests_ && (i == 0 || i == n) ? 0 : largest(i, i == n ? kInfinity : most[i + 1]);
-      // A spline that begins or ends with three equal control points rests there whatever ṡ is.
-      if (!std::isfinite(most[i]) && i > 0 && i < n) return false;
+      is_bounded = is_bounded || (i > 0 && i < n && std::isfinite(most[i]));
+      // Where three equal control points stand, a spline rests, whatever ṡ is: within it, as fast as behind that.
+      if (!std::isfinite(most[i]) && i > 0 && i < n) most[i] = most[i + 1];
     }
+    if (!is_bounded) return false;
     x_.assign(n + 1, std::isfinite(most[0]) ? most[0] : most[1]);
     for (std::size_t i = 0; i < n; ++i) {
       const double u = range_of_u(rows_[i], shares_[i], x_[i]).upper;
@@ -319,10 +399,10 @@ TimeLaw joined(const std::vector<Run>& runs, double window, double step) {
 }  // namespace
 
 double usage(const TimedPathProblem& problem, const PoseSampler& sampler, const PathRates<double>& path, double rate,
-             double acceleration) {
-  RowsAt all(problem, sampler, path);
+             double acceleration, double s) {
+  RowsAt all(problem, sampler, path, loss_near(problem, s));
   if (!all.is_feasible_at_rest()) return kInfinity;
-  double most = 0;
+  double most = all.power_usage(rate, acceleration);
   for (const Row& row : std::move(all).rows()) {
     const double used = (row.a * acceleration + row.b * sqr(rate)) / row.c;
     most = std::max(most, row.a == 0 ? std::sqrt(std::max(0.0, used)) : used);
@@ -381,8 +461,8 @@ std::optional<TimedMove> time_optimal(const Path& path, const TimedPathProblem& 
       const double s = std::clamp(at.s, 0.0, static_cast<double>(path.segments()));
       const std::size_t segment = std::min(static_cast<std::size_t>(s), path.segments() - 1);
       const double used = usage(problem, sampler, rates.at(path.segment(segment), s - static_cast<double>(segment)),
-                                at.rate, at.acceleration) /
-                          (1 - problem.slack);
+                                at.rate, at.acceleration, s) *
+                          tightening_at(problem, s) / (1 - problem.slack);
       most = std::max(most, used);
       if (!(used > 1)) continue;
       const std::size_t n = runs.size() == 1 ? 0 : segment;

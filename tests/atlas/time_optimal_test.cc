@@ -97,5 +97,85 @@ TEST(TimeOptimal, TensionsAloneBoundTheSpeedWhereTheLoadHasMass) {
   EXPECT_FALSE(time_optimal(path, {problem, {}, {}}));  // nothing bounds it
 }
 
+TEST(TimeOptimal, WinchesKeepTheirPowerWithInertia) {
+  const Problem problem = testing::free_flying(testing::robot2_sphere());
+  const Path path{{at(-0.03, 0, 0.3), at(0.03, 0, 0.3), at(0.03, 0.03, 0.33)}};
+  TimedPathProblem timed{problem, {body(0.2, 0.05)}, {}};
+  const auto unlimited = time_optimal(path, timed);
+  ASSERT_TRUE(unlimited);
+  constexpr double kPower = 0.02;
+  timed.limits.winch_power.fill(kPower);
+  timed.limits.acceleration = 0.5;
+  const auto move = time_optimal(path, timed);
+  ASSERT_TRUE(move);
+  EXPECT_GT(move->fastest_s, 1.2 * unlimited->fastest_s);
+  // Tensions and speeds once more, from the pose at each time.
+  const PoseSampler sampler(problem);
+  const PathRatesModel<double> path_rates(problem);
+  double most = 0;
+  constexpr int kTimes = 2000;
+  for (int k = 0; k <= kTimes; ++k) {
+    const LawPoint now = at_time(move->law, move->law.duration_s() * k / kTimes);
+    const std::size_t segment = std::min(static_cast<std::size_t>(std::max(now.s, 0.0)), path.segments() - 1);
+    const PathRates<double> by_s = path_rates.at(path.segment(segment), now.s - static_cast<double>(segment));
+    const Rates<double> rates = by_time(by_s, now.rate, now.acceleration);
+    Model<double> moving = sampler.model();
+    moving.wrench = moving.wrench - inertial_wrench(timed.bodies, by_s.r_WP, rates);
+    const Statics<double> statics = taut::statics(moving, by_s.p, by_s.r_WP);
+    const WinchRates<double> winches = winch_rates(moving, by_s.p, by_s.r_WP, rates);
+    for (std::size_t i = 0; i < kCables; ++i) {
+      most = std::max(most, (statics.tension[i] + statics.tension_above[i]) * std::abs(winches.speed[i]));
+    }
+  }
+  EXPECT_LE(most, kPower);
+  EXPECT_GT(most, 0.9 * kPower);
+}
+
+TEST(TimeOptimal, PassesThroughAStopWithinASpline) {
+  const Problem problem = testing::free_flying(testing::robot2_sphere());
+  const Waypoint a = at(-0.03, 0, 0.3), b = at(0, 0.03, 0.32), c = at(0.03, 0.01, 0.28);
+  const Path path{{a, a, a, b, b, b, c, c, c}, Interpolation::kCubicBSpline};
+  TimedPathProblem timed{problem, {}, {}};
+  timed.limits.speed = 0.2;
+  timed.limits.acceleration = 0.4;
+  const auto move = time_optimal(path, timed);
+  ASSERT_TRUE(move);
+  Path timed_path = path;
+  timed_path.timing = move->law;
+  EXPECT_EQ(complaint(timed_path), "");
+  EXPECT_LE(greatest_usage(path, timed, move->law), 1);
+  const double length = std::hypot(0.03, 0.03, 0.02) + std::hypot(0.03, 0.02, 0.04);
+  EXPECT_LT(move->law.duration_s(), 1.5 * (length / 0.2 + 2 * 0.2 / 0.4));
+}
+
+TEST(TimeOptimal, LeavesAloneWhatItIsTold) {
+  const Problem problem = testing::free_flying(testing::robot2_sphere());
+  const Path path{{at(-0.03, 0, 0.3), at(0.03, 0, 0.3)}};
+  TimedPathProblem timed{problem, {body(0.5, 0.05)}, {}};
+  const auto all = time_optimal(path, timed);
+  ASSERT_TRUE(all);
+  timed.tightened.push_back({0, 1, 4});  // speeds and accelerations halved, and a quarter
+  const auto less = time_optimal(path, timed);
+  ASSERT_TRUE(less);
+  EXPECT_NEAR(less->fastest_s, 2 * all->fastest_s, 1e-3 * all->fastest_s);
+  EXPECT_NEAR(less->law.duration_s(), 2 * all->law.duration_s(), 0.02 * all->law.duration_s());
+  timed.tightened = {{0.7, 0.8, 4}};  // only there
+  const auto locally = time_optimal(path, timed);
+  ASSERT_TRUE(locally);
+  EXPECT_GT(locally->law.duration_s(), 1.02 * all->law.duration_s());
+  EXPECT_LT(locally->law.duration_s(), 1.5 * all->law.duration_s());
+  timed.tightened.clear();
+  TensionLoss loss;
+  for (auto& sides : loss.newtons) sides = {0.02, 0.02};  // [N], of some tenths
+  timed.tension_loss.assign(timed.grid + 1, loss);
+  const auto lost = time_optimal(path, timed);
+  ASSERT_TRUE(lost);
+  EXPECT_GT(lost->fastest_s, 1.005 * all->fastest_s);
+  for (TensionLoss& at_place : timed.tension_loss) at_place.turn = 0.1;
+  const auto turned = time_optimal(path, timed);
+  ASSERT_TRUE(turned);
+  EXPECT_GT(turned->fastest_s, 1.005 * lost->fastest_s);
+}
+
 }  // namespace
 }  // namespace taut

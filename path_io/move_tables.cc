@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "path_io/move_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "base/input_error.h"
+#include "base/sanitize.h"
+#include "kinematics/move_sampler.h"
+#include "kinematics/time_limits.h"
+
+namespace taut {
+namespace {
+
+/// The times of the rows.
+std::vector<double> times(const TimeLaw& law, double rate_Hz) {
+  const double end = law.duration_s();
+  if (!(end * rate_Hz < kMostMoveRows)) {
+    throw InputError(ErrorCode::kCase,
+                     fmt::format("time.rate: got {} Hz, at which tables of a move of {:.6g} s take more than {} rows, "
+                                 "expected a lower rate",
+                                 rate_Hz, end, kMostMoveRows));
+  }
+  std::vector<double> result;
+  constexpr double kLeastOfAStep = 1e-6;  // no row so near the last one
+  for (double k = 0; k + kLeastOfAStep < end * rate_Hz; ++k) result.push_back(k / rate_Hz);
+  result.push_back(end);
+  return result;
+}
+
+/// Three digits, rounded up. @pre x > 0
+std::string rounded_up(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
+  return fmt::format("{:.3g}", std::ceil(x / unit * (1 - 1e-12)) * unit);
+}
+
+/// What is true between two rows.
+std::string between_rows(const Problem& problem, double rate_Hz) {
+  const TimeLimits limits = make_time_limits(problem);
+  const auto error_mm = [&](std::size_t i) {
+    constexpr double kMillimetres = 1000;
+    return rounded_up(kMillimetres * limits.winch_acceleration[i] / (8 * rate_Hz * rate_Hz));
+  };
+  std::string text;
+  const auto& most = limits.winch_acceleration;
+  const bool are_equal = std::ranges::all_of(most, [&](double x) { return x == most[0]; });
+  const std::string how =
+      "# Between two rows, at most h apart, a length that runs straight from one to the other is within h^2/8 times "
+      "the proved\n# limit of that winch's acceleration of the proved length: ";
+  if (are_equal && std::isfinite(most[0])) {
+    text = fmt::format("{}{} mm of each cable, for {:.6g} m/s^2.\n", how, error_mm(0), most[0]);
+  } else if (std::ranges::any_of(most, [](double x) { return std::isfinite(x); })) {
+    std::vector<std::string> parts;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      parts.push_back(std::isfinite(most[i])
+                          ? fmt::format("{} mm of cable {}, for {:.6g} m/s^2", error_mm(i), i + 1, most[i])
+                          : fmt::format("nothing is known of cable {}, whose acceleration has no limit", i + 1));
+    }
+    text = fmt::format("{}{}.\n", how, fmt::join(parts, "; "));
+  } else {
+    text =
+        "# The case limits no winch's acceleration, so that nothing is known of lengths that run straight from row to "
+        "row.\n";
+  }
+  return text +
+         "# How drives join the rows is no part of the certificate, unless a tolerance of cable lengths "
+         "(tolerances.cable_length)\n# covers it.\n";
+}
+
+std::string head(const Problem& problem, const MoveRows& rows, double rate_Hz, std::string_view sha256,
+                 std::string_view what, std::string_view units, std::string_view more) {
+  return fmt::format(
+      "{}{}. Case: {}\n"
+      "# Rows: {}, every {:.6g} s ({:.6g} Hz), the last one where the move ends, at {} s.\n"
+      "# Units: {}\n"
+      "# What is proved is the move: the path by its law through the waypoints of path.csv, and the time law in the "
+      "certificate.\n# These rows are on it but for rounding.\n"
+      "{}"
+      "# Certificate of the move: certificate.json, SHA-256 {}\n",
+      kMoveTableBegin, what, sanitize(problem.name), rows.poses.size(), 1 / rate_Hz, rate_Hz, rows.poses.back()[0],
+      units, more, sha256);
+}
+
+}  // namespace
+
+MoveRows move_rows(const Problem& problem, const Path& path, double rate_Hz) {
+  const MoveSampler moves(problem, path);
+  MoveRows rows;
+  Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
+  for (const double t : times(path.timing.value(), rate_Hz)) {
+    const MoveSample now = moves.at(t);
+    auto& winches = rows.winches.emplace_back();
+    winches[0] = t;
+    auto into = winches.begin() + 1;
+    for (const auto* six : {&now.length, &now.winches.speed, &now.winches.acceleration}) {
+      into = std::ranges::copy(*six, into).out;
+    }
+    RigidPose pose = now.pose;
+    if (pose.q.dot(last) < 0) pose.q.coeffs() = -pose.q.coeffs();  // the same orientation, without a jump
+    last = pose.q;
+    rows.poses.push_back({t, pose.p(0), pose.p(1), pose.p(2), pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()});
+  }
+  return rows;
+}
+
+MoveTables move_tables(const Problem& problem, const Path& path, double rate_Hz, std::string_view certificate_sha256) {
+  const MoveRows rows = move_rows(problem, path, rate_Hz);
+  MoveTables tables;
+  tables.winches_csv =
+      head(problem, rows, rate_Hz, certificate_sha256, ", for its winches",
+           "lengths l are in metres, from anchor to anchor; v and a are their first two derivatives by time.",
+           between_rows(problem, rate_Hz)) +
+      fmt::format("{}\n", fmt::join(kWinchColumns, ","));
+  const std::string pose_head =
+      head(problem, rows, rate_Hz, certificate_sha256, ", as poses",
+           "metres and seconds; the quaternion (qx, qy, qz, qw) turns the platform's axes into the base's.", "");
+  tables.poses_csv = pose_head + fmt::format("{}\n", fmt::join(kPoseColumns, ","));
+  tables.poses_tum = pose_head + "# t px py pz qx qy qz qw\n";
+  for (const auto& row : rows.winches) {
+    fmt::format_to(std::back_inserter(tables.winches_csv), "{}\n", fmt::join(row, ","));
+  }
+  for (const auto& row : rows.poses) {
+    fmt::format_to(std::back_inserter(tables.poses_csv), "{}\n", fmt::join(row, ","));
+    fmt::format_to(std::back_inserter(tables.poses_tum), "{}\n", fmt::join(row, " "));
+  }
+  return tables;
+}
+
+}  // namespace taut

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// winches.csv, poses.csv and poses.tum: a proved move as tables in time, for the drives that follow it and for programs
+// that show it.
+//
+// Their rows are on the move but for rounding. What is proved is the move itself: its path, through the waypoints of
+// path.csv, and its time law, which is in the certificate. What drives do between two rows is another motion.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinematics/segment.h"
+#include "problem/problem.h"
+
+namespace taut {
+
+/// What the tables begin with, all three.
+inline constexpr std::string_view kMoveTableBegin = "# Samples of a proved move";
+
+/// Columns of winches.csv and poses.csv.
+inline constexpr std::array<std::string_view, 1 + 3 * kCables> kWinchColumns = {
+    "t[s]",                                                                      //
+    "l1[m]",     "l2[m]",     "l3[m]",     "l4[m]",     "l5[m]",     "l6[m]",    //
+    "v1[m/s]",   "v2[m/s]",   "v3[m/s]",   "v4[m/s]",   "v5[m/s]",   "v6[m/s]",  //
+    "a1[m/s^2]", "a2[m/s^2]", "a3[m/s^2]", "a4[m/s^2]", "a5[m/s^2]", "a6[m/s^2]"};
+inline constexpr std::array<std::string_view, 8> kPoseColumns = {"t[s]", "px[m]", "py[m]", "pz[m]",
+                                                                 "qx",   "qy",    "qz",    "qw"};
+
+/// Tables take fewer rows than that, but for the last one.
+inline constexpr double kMostMoveRows = 500'000;
+
+/// The numbers of the tables.
+struct MoveRows {
+  std::vector<std::array<double, kWinchColumns.size()>> winches;
+  std::vector<std::array<double, kPoseColumns.size()>> poses;
+};
+
+/// Rows at t = 0, 1/rate, 2/rate, … and at the end of the move. Quaternions go on without a change of sign.
+/// @pre path.timing @throws InputError if there are more than kMostMoveRows.
+[[nodiscard]] MoveRows move_rows(const Problem& problem, const Path& path, double rate_Hz);
+
+struct MoveTables {
+  std::string winches_csv;  ///< t; lengths, and their first two derivatives by time, of six cables
+  std::string poses_csv;    ///< t; position of the platform's origin, and the quaternion that turns P into W
+  std::string poses_tum;    ///< the same with blanks between, as programs for trajectories read it
+};
+
+/// move_rows() as text: numbers that read back to the same binary64. Comments at the top name the case, units, what is
+/// proved, by how much cables that run straight from row to row miss the proved lengths at most, and the certificate by
+/// its SHA-256.
+/// @pre, @throws  as move_rows()
+[[nodiscard]] MoveTables move_tables(const Problem& problem, const Path& path, double rate_Hz,
+                                     std::string_view certificate_sha256);
+
+}  // namespace taut

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tables of a move: read back, against differences of their own rows and against the path.
+#include "path_io/move_tables.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "base/input_error.h"
+#include "kinematics/move_sampler.h"
+#include "tests/support/robots.h"
+
+namespace taut::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Table {
+  std::vector<std::string> comments;
+  std::string header;  ///< empty: none
+  std::vector<std::vector<double>> rows;
+};
+Table read(const std::string& text, char separator, bool has_header) {
+  Table table;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) {
+      table.comments.push_back(line);
+    } else if (has_header && table.header.empty()) {
+      table.header = line;
+    } else {
+      auto& row = table.rows.emplace_back();
+      std::istringstream cells(line);
+      for (std::string cell; std::getline(cells, cell, separator);) {
+        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), row.emplace_back());
+        EXPECT_TRUE(error == std::errc() && end == cell.data() + cell.size()) << cell;
+      }
+    }
+  }
+  return table;
+}
+
+class MoveTablesTest : public ::testing::Test {
+ protected:
+  Problem problem_ = [] {
+    Problem problem = free_flying(robot2_sphere());
+    problem.time.emplace().winch_acceleration_m_s2.fill("0.5");
+    return problem;
+  }();
+  Path path_ = [] {
+    const Waypoint a = at({-0.03, 0, 0.3, 0, 0, 0}), b = at({0, 0.03, 0.32, 0.3, 0.1, 0.2}),
+                   c = at({0.03, 0.01, 0.28, 0.2, 0.2, 0.5});
+    Path path{{a, a, a, b, c, c, c}, Interpolation::kCubicBSpline};
+    path.timing = TimeLaw{0x1p-1 + 0x1p-20, {0, 0, 0, 1, 2, 3, 4, 4, 4}};
+    return path;
+  }();
+};
+
+TEST_F(MoveTablesTest, RowsAreAtEvenTimesAndAtTheEndExactly) {
+  const double end = path_.timing->duration_s();
+  const MoveTables tables = move_tables(problem_, path_, 1000, "abc");
+  for (const auto& [text, separator] :
+       {std::pair(&tables.winches_csv, ','), std::pair(&tables.poses_csv, ','), std::pair(&tables.poses_tum, ' ')}) {
+    const Table table = read(*text, separator, separator == ',');
+    ASSERT_EQ(table.rows.size(), static_cast<std::size_t>(std::ceil(end * 1000)) + 1);
+    for (std::size_t k = 0; k + 1 < table.rows.size(); ++k) {
+      EXPECT_EQ(table.rows[k][0], static_cast<double>(k) / 1000);
+      EXPECT_LT(table.rows[k][0], end);
+    }
+    EXPECT_EQ(table.rows.back()[0], end);
+    EXPECT_THAT(table.comments.back(), HasSubstr(separator == ',' ? "SHA-256 abc" : "t px py pz qx qy qz qw"));
+    EXPECT_TRUE(text->starts_with(kMoveTableBegin));
+  }
+}
+
+TEST_F(MoveTablesTest, AFullPeriodAtTheEndGivesNoRowTwice) {
+  path_.timing->step_s = 0.25;  // 1.5 s
+  const Table table = read(move_tables(problem_, path_, 100, "").winches_csv, ',', true);
+  EXPECT_EQ(table.rows.size(), 151U);
+  EXPECT_EQ(table.rows[149][0], 1.49);
+  EXPECT_EQ(table.rows[150][0], 1.5);
+}
+
+TEST_F(MoveTablesTest, SpeedsAndAccelerationsAreDerivativesOfLengths) {
+  constexpr double kRate = 1000;
+  const Table table = read(move_tables(problem_, path_, kRate, "").winches_csv, ',', true);
+  EXPECT_TRUE(table.header.starts_with("t[s],l1[m],")) << table.header;
+  double fastest = 0, hardest = 0;
+  for (std::size_t k = 1; k + 2 < table.rows.size(); ++k) {
+    const auto& before = table.rows[k - 1];
+    const auto& now = table.rows[k];
+    const auto& after = table.rows[k + 1];
+    ASSERT_EQ(now.size(), 19U);
+    for (std::size_t i = 1; i <= kCables; ++i) {
+      EXPECT_NEAR(now[6 + i], (after[i] - before[i]) * kRate / 2, 1e-4);
+      EXPECT_NEAR(now[12 + i], (after[6 + i] - before[6 + i]) * kRate / 2, 0.01);
+      fastest = std::max(fastest, std::abs(now[6 + i]));
+      hardest = std::max(hardest, std::abs(now[12 + i]));
+    }
+  }
+  EXPECT_GT(fastest, 0.03);
+  EXPECT_GT(hardest, 0.03);
+  for (std::size_t i = 7; i <= 12; ++i) {
+    EXPECT_EQ(table.rows.front()[i], 0);
+    EXPECT_NEAR(table.rows.back()[i], 0, 1e-12);
+  }
+}
+
+TEST_F(MoveTablesTest, StraightLengthsStayWithinWhatTheCommentSays) {
+  constexpr double kRate = 20, kLimit = 0.5;
+  const Table table = read(move_tables(problem_, path_, kRate, "").winches_csv, ',', true);
+  // h^2/8 times the limit: 0.15625 mm.
+  std::string all;
+  for (const std::string& line : table.comments) all += line + "\n";
+  EXPECT_THAT(all, HasSubstr("0.157 mm of each cable, for 0.5 m/s^2"));
+  const MoveSampler sampler(problem_, path_);
+  double most = 0;
+  for (std::size_t k = 0; k + 1 < table.rows.size(); ++k) {
+    for (const double part : {0.25, 0.5, 0.75}) {
+      const MoveSample now = sampler.at(std::lerp(table.rows[k][0], table.rows[k + 1][0], part));
+      for (std::size_t i = 0; i < kCables; ++i) {
+        EXPECT_LT(std::abs(now.winches.acceleration[i]), kLimit) << "as a certificate would say";
+        const double straight = std::lerp(table.rows[k][i + 1], table.rows[k + 1][i + 1], part);
+        most = std::max(most, std::abs(now.length[i] - straight));
+      }
+    }
+  }
+  EXPECT_LT(most, 0.157e-3);
+  EXPECT_GT(most, 0.01e-3);
+}
+
+TEST_F(MoveTablesTest, SaysWhichWinchesHaveNoLimit) {
+  problem_.time->winch_acceleration_m_s2[2].reset();
+  const std::string some = move_tables(problem_, path_, 100, "").winches_csv;
+  EXPECT_THAT(some, HasSubstr("0.00625 mm of cable 2, for 0.5 m/s^2; nothing is known of cable 3, whose"));
+  problem_.time->winch_acceleration_m_s2 = {};
+  const std::string none = move_tables(problem_, path_, 100, "").winches_csv;
+  EXPECT_THAT(none, HasSubstr("The case limits no winch's acceleration"));
+  EXPECT_THAT(none, Not(HasSubstr(" mm of ")));
+}
+
+TEST_F(MoveTablesTest, PosesAreOnThePath) {
+  const MoveTables tables = move_tables(problem_, path_, 50, "");
+  const Table csv = read(tables.poses_csv, ',', true), tum = read(tables.poses_tum, ' ', false);
+  EXPECT_EQ(csv.header, "t[s],px[m],py[m],pz[m],qx,qy,qz,qw");
+  EXPECT_EQ(csv.rows, tum.rows);
+  const PoseSampler sampler(problem_);
+  for (std::size_t k = 0; k < csv.rows.size(); ++k) {
+    const auto& row = csv.rows[k];
+    ASSERT_EQ(row.size(), 8U);
+    const double place = at_time(*path_.timing, row[0]).s;
+    const std::size_t segment = std::min(static_cast<std::size_t>(place), path_.segments() - 1);
+    const RigidPose pose = sampler.rigid_pose(path_.segment(segment), place - static_cast<double>(segment));
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(row[1 + static_cast<std::size_t>(axis)], pose.p(axis), 1e-12);
+    const Eigen::Quaterniond q(row[7], row[4], row[5], row[6]);
+    EXPECT_NEAR(std::abs(q.dot(pose.q)), 1, 1e-12);
+    if (k == 0) continue;
+    const auto& last = csv.rows[k - 1];
+    EXPECT_GT(q.dot(Eigen::Quaterniond(last[7], last[4], last[5], last[6])), 0.9) << "no jump of sign";
+  }
+}
+
+TEST_F(MoveTablesTest, TooManyRowsAreRefused) {
+  path_.timing->step_s = 60;
+  EXPECT_THROW((void)move_tables(problem_, path_, 10'000, ""), InputError);
+}
+
+}  // namespace
+}  // namespace taut::testing
