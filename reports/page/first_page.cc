@@ -11,6 +11,7 @@
 #include "reports/summary/around_items.h"
 #include "reports/summary/bodies_statement.h"
 #include "reports/summary/broken_limits.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 #include "reports/summary/worst_place.h"
 
@@ -105,11 +106,18 @@ Html band(const ReportContext& scene, const Summary& s) {
 Html tiles(const Summary& s) {
   if (s.key_numbers.empty()) return {};
   Html result;
+  Html rates;
   for (const KeyNumber& n : s.key_numbers) {
+    if (n.is_of_rate) {  // there may be seven of them
+      rates += html("<li><b>{}</b>: <span class=\"{}\">{}</span> ({})</li>", n.title, name(n.nearness),
+                    with_minus_signs(n.value), with_minus_signs(n.detail));
+      continue;
+    }
     result += html("<div class=\"tile {}\"><dt>{}</dt><dd class=\"value\">{}</dd><dd class=\"detail\">{}</dd></div>\n",
                    name(n.nearness), n.title, with_minus_signs(n.value), with_minus_signs(n.detail));
   }
-  return html("<dl class=\"tiles\">\n{}</dl>\n", result);
+  return html("<dl class=\"tiles\">\n{}</dl>\n", result) +
+         (rates.empty() ? Html() : html("<ul class=\"rates\">{}</ul>\n", rates));
 }
 
 // ---- The cables.
@@ -163,11 +171,13 @@ Html cables(const ReportContext& scene, const Summary& s) {
 std::string confirmed_text(const ReportContext& scene) {
   const DisplayUnits& units = scene.illustration.units;
   const Margins& margins = *scene.certificate.margins;
+  const bool in_time = is_move(scene.certificate);
   return fmt::format(
-      "every tension stays at least {} {} and every length at least {} {} inside its limits, {}the set of loads "
-      "could grow by the factor above{}",
+      "every tension stays at least {} {} and every length at least {} {} inside its limits, {}{}{}",
       units.force.exact(truncated(margins.tension_N)), units.force.name(),
       units.length.exact(truncated(margins.length_m)), units.length.name(), margins.clearance_m ? "" : "and ",
+      in_time ? "all stated limits of speed, acceleration and power are kept"
+              : "the set of loads could grow by the factor above",
       margins.clearance_m ? fmt::format(", and every checked pair of bodies is at least {} {} farther apart than its "
                                         "clearance{}",
                                         units.length.exact(truncated(*margins.clearance_m)), units.length.name(),
@@ -234,6 +244,9 @@ Html broken_table(const ReportContext& scene, const std::vector<BrokenLimit>& al
 CablePlot gravest_plot(const std::vector<BrokenLimit>& all) {
   const BrokenLimit& gravest = all.front();
   CablePlot plot{0, false, gravest.position, gravest.proof && gravest.proof->deviation};
+  // Of a winch that is too fast, its cable.
+  if (gravest.rate && is_of_winch(gravest.rate->kind)) plot.cable = static_cast<std::size_t>(gravest.rate->cable);
+  if (gravest.rate) return plot;
   const auto named = std::ranges::find_if(all, &BrokenLimit::is_of_cable);
   if (named != all.end()) {
     plot.cable = static_cast<std::size_t>(named->margin.cable);
@@ -245,7 +258,9 @@ CablePlot gravest_plot(const std::vector<BrokenLimit>& all) {
 Html broken(const ReportContext& scene) {
   const std::vector<BrokenLimit> all = broken_limits(scene);
   if (all.empty()) return {};
-  const Html plot = all.front().bodies ? distance_plot(scene, all.front()) : cable_plot(scene, gravest_plot(all));
+  const Html plot = all.front().bodies                                         ? distance_plot(scene, all.front())
+                    : all.front().rate && !is_of_winch(all.front().rate->kind) ? Html()
+                                                                               : cable_plot(scene, gravest_plot(all));
   return broken_table(scene, all) + plot;
 }
 
@@ -278,10 +293,13 @@ Html declaration(const ReportContext& scene, const Summary& s) {
     last = "Lift supervisor";
     text = html(
         "<b>By signing</b> I confirm that machine, load, limits{} above and under "
-        "<a href=\"#robot\">Machine and load</a> are those of the machine that is used, that it moves slowly and its "
-        "controller follows this path, that what the proof does not cover is covered by document "
+        "<a href=\"#robot\">Machine and load</a> are those of the machine that is used, that {}, that what the proof "
+        "does not cover is covered by document "
         "<span class=\"blank\"></span>, and that taut-check accepted the {}.",
-        scene.certificate.problem.bodies ? ", tolerances and bodies" : " and tolerances", certificate_name(s));
+        scene.certificate.problem.bodies ? ", tolerances and bodies" : " and tolerances",
+        is_move(scene.certificate) ? "its drives follow this move in time"
+                                   : "it moves slowly and its controller follows this path",
+        certificate_name(s));
   } else if (s.verdict == "refuted") {
     text = html(
         "<b>By signing</b> I acknowledge that this move breaks the limits stated above and must not be run as it is "
@@ -372,6 +390,7 @@ Html load_words(const std::string& load_name, const LoadStatement& load) {
   Html text = load_name.empty() ? Html() : html("<bdi>{}</bdi>. ", load_name);
   text += html("{}", with_minus_signs(load.total));
   if (load.items.empty()) text += html(" {}", with_minus_signs(load.spread));
+  if (!load.inertia.empty()) text += html(" <bdi>{}</bdi>", load.inertia);
   for (const auto& [name, words] : load.items) {
     text += html(" <bdi>{}</bdi>: {}.", quoted_name(name), with_minus_signs(words));
   }

@@ -49,6 +49,9 @@ inline constexpr const char* kFirstPageStyle = R"css(
 .tile .value { font-size: 22px; line-height: 1.25; font-weight: 700; font-variant-numeric: tabular-nums; }
 .tile .detail { font-size: 13px; line-height: 1.35; }
 .tile.out .value { color: var(--out); }
+.rates { margin: 0 0 12px; padding-left: 18px; max-width: none; columns: 2; column-gap: 22px; font-size: 13px; }
+.rates li { margin: 1px 0; break-inside: avoid; }
+.rates .out { color: var(--out); font-weight: 700; }
 .details { margin: 12px 0; font-size: 14.5px; }
 .details p { max-width: none; margin: 5px 0; }
 .duo > div > :first-child { margin-top: 0; }
@@ -111,7 +114,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .tiles, .tiles:has(.tile:nth-child(5)) { grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 8px; }
   .tile { padding: 7px 10px 8px; }
   .tile .value, .tiles:has(.tile:nth-child(5)) .value { font-size: 16px; }
-  .uncovered ul { columns: 1; }
+  .uncovered ul, .rates { columns: 1; }
   .signatures { grid-template-columns: minmax(0, 1fr); }
 }
 @media print {
@@ -137,6 +140,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .tile dt, .tile .detail { font-size: 7.4pt; } .tile .value { font-size: 12pt; }
   .tiles:has(.tile:nth-child(5)) .value { font-size: 9.5pt; }
   .tiles:has(.tile:nth-child(5)) .detail { font-size: 6.8pt; }
+  .rates { font-size: 7pt; line-height: 1.25; margin: -3pt 0 4pt; }
   .details { font-size: 7.8pt; line-height: 1.3; margin: 3pt 0; } .details p { margin: 2pt 0; }
   .duo { gap: 10pt; }
   .duo:has(> figure) { grid-template-columns: minmax(0, 41fr) minmax(0, 59fr); }

@@ -16,6 +16,7 @@
 #include "reports/page/plot_sections.h"
 #include "reports/page/sections.h"
 #include "reports/page/sticky_bar.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -33,6 +34,7 @@ Html contents(const ReportContext& scene) {
   link(has_path, "pose", "Pose");
   link(has_path, "tensions", "Tensions");
   link(has_path, "lengths", "Lengths");
+  link(has_path && is_move(scene.certificate), "winches", "Winches");
   link(is_plane(scene.certificate.problem.space), "plane", "Plane");
   link(!scene.certificate.stretches.empty(), "stretches", "Stretches");
   link(true, "robot", "Machine and load");

@@ -6,12 +6,16 @@
 
 #include "reports/page/table_sizes.h"
 #include "reports/summary/numbers.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
 namespace {
 
 constexpr std::size_t kLeastShown = 20;  ///< segments with the least margins, beside the blocks of a long path
+
+/// By how much loads could grow is claimed of no move in time.
+bool has_growth(const Certificate& certificate) { return !is_move(certificate); }
 
 /// The printed row of a segment, or of several consecutive ones.
 struct MarginRow {
@@ -78,10 +82,11 @@ Html rounded_table(const ReportContext& scene, const std::string& caption, const
   std::vector<std::vector<Html>> cells;
   cells.reserve(rows.size());
   for (const MarginRow& row : rows) {
-    cells.push_back(
-        {segments_text(row), html("{} → {}", row.first, row.last + control_points(certificate.path.interpolation) - 1),
-         html("{}", row.boxes), cell(row.tension, &Margins::tension_N, in(units.force)),
-         cell(row.length, &Margins::length_m, in(units.length)), cell(row.scale, &Margins::wrench_scale, growth_text)});
+    cells.push_back({segments_text(row),
+                     html("{} → {}", row.first, row.last + control_points(certificate.path.interpolation) - 1),
+                     html("{}", row.boxes), cell(row.tension, &Margins::tension_N, in(units.force)),
+                     cell(row.length, &Margins::length_m, in(units.length))});
+    if (has_growth(certificate)) cells.back().push_back(cell(row.scale, &Margins::wrench_scale, growth_text));
     if (certificate.problem.bodies) {
       cells.back().push_back(clearance_cell(certificate, row.clearance, in(units.length)));
     }
@@ -90,8 +95,8 @@ Html rounded_table(const ReportContext& scene, const std::string& caption, const
                                  {html("Waypoints"), true},
                                  {html("Boxes"), true},
                                  {html("Tension to its nearer limit [{}]", units.force.name()), true},
-                                 {html("Length to its nearer limit [{}]", units.length.name()), true},
-                                 {html("Loads could grow to"), true}};
+                                 {html("Length to its nearer limit [{}]", units.length.name()), true}};
+  if (has_growth(certificate)) columns.push_back({html("Loads could grow to"), true});
   if (certificate.problem.bodies) columns.push_back({html("Clearance left [{}]", units.length.name()), true});
   return table(html("{}", caption), columns, cells);
 }
@@ -107,17 +112,15 @@ Html exact_table(const Certificate& certificate, const std::string& caption, con
                      row.boxes == 0   ? html("–")
                      : row.depth == 0 ? html("1")
                                       : html("2<sup>−{}</sup>", row.depth),
-                     cell(row.tension, &Margins::tension_N), cell(row.length, &Margins::length_m),
-                     cell(row.scale, &Margins::wrench_scale)});
+                     cell(row.tension, &Margins::tension_N), cell(row.length, &Margins::length_m)});
+    if (has_growth(certificate)) cells.back().push_back(cell(row.scale, &Margins::wrench_scale));
     if (certificate.problem.bodies) {
       cells.back().push_back(clearance_cell(certificate, row.clearance, [](const DecimalText& si) { return si; }));
     }
   }
-  std::vector<Column> columns = {{html("Segment"), true},
-                                 {html("Narrowest box"), true},
-                                 {html("tension_N"), true},
-                                 {html("length_m"), true},
-                                 {html("wrench_scale"), true}};
+  std::vector<Column> columns = {
+      {html("Segment"), true}, {html("Narrowest box"), true}, {html("tension_N"), true}, {html("length_m"), true}};
+  if (has_growth(certificate)) columns.push_back({html("wrench_scale"), true});
   if (certificate.problem.bodies) columns.push_back({html("clearance_m"), true});
   return table(html("{}", caption), columns, cells);
 }
@@ -129,7 +132,7 @@ std::vector<MarginRow> rows_of(const ReportContext& scene, std::size_t step) {
   return rows;
 }
 
-/// The segments whose loads may grow least, in order along the path.
+/// The segments whose loads may grow least, of a move those with the least margins of tension, in order along the path.
 std::vector<MarginRow> least_segments(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   std::vector<std::size_t> all;
@@ -137,7 +140,8 @@ std::vector<MarginRow> least_segments(const ReportContext& scene) {
     if (certificate.segments[k].margins) all.push_back(k);
   }
   std::vector<double> scale(certificate.segments.size());
-  for (const std::size_t k : all) scale[k] = nearest_double(certificate.segments[k].margins->wrench_scale);
+  const DecimalText Margins::*const margin = has_growth(certificate) ? &Margins::wrench_scale : &Margins::tension_N;
+  for (const std::size_t k : all) scale[k] = nearest_double((*certificate.segments[k].margins).*margin);
   const std::size_t count = std::min(kLeastShown, all.size());
   std::ranges::partial_sort(all, all.begin() + static_cast<std::ptrdiff_t>(count), {},
                             [&](std::size_t k) { return scale[k]; });
@@ -148,7 +152,10 @@ std::vector<MarginRow> least_segments(const ReportContext& scene) {
   return rows;
 }
 
-constexpr const char* kLeastCaption = "The segments whose loads may grow least";
+const char* least_caption(const Certificate& certificate) {
+  return has_growth(certificate) ? "The segments whose loads may grow least"
+                                 : "The segments with the least margins of tension";
+}
 
 }  // namespace
 
@@ -165,14 +172,18 @@ Html margins(const ReportContext& scene) {
           : folded(true, html("{}", plural(rows.size(), "block")),
                    rounded_table(
                        scene, fmt::format("The least proved margins of blocks of {}", plural(step, "segment")), rows)) +
-                folded(true, html("{}", kLeastCaption), rounded_table(scene, kLeastCaption, least_segments(scene)));
+                folded(true, html("{}", least_caption(certificate)),
+                       rounded_table(scene, least_caption(certificate), least_segments(scene)));
   return section(
       "margins", "Proved margins",
       html("<p>Lower bounds that hold at every pose of a segment, for all six cables and every load, rounded down{}. "
-           "Loads could grow by the factor by which the semi-axes of their set may grow before a tension reaches "
-           "its limit. {}The true margins may be larger: a bound is as sharp as the proof needed it. Boxes are the "
+           "{}{}The true margins may be larger: a bound is as sharp as the proof needed it. Boxes are the "
            "intervals of a segment that were proved at one go.</p>\n",
            certificate.margins ? "" : ", for those parts of the path that are proved",
+           has_growth(certificate)
+               ? "Loads could grow by the factor by which the semi-axes of their set may grow before a tension reaches "
+                 "its limit. "
+               : "",
            certificate.margins ? "The least of each column is set in bold. " : "") +
           tables);
 }
@@ -184,23 +195,24 @@ Html exact_margins(const ReportContext& scene) {
   const bool has_all = count <= kMostRows;
   const Html whole =
       certificate.margins
-          ? html(
-                "<p>Of the whole path: <code>tension_N</code> {}, <code>length_m</code> {}, "
-                "<code>wrench_scale</code> {}{}.</p>\n",
-                certificate.margins->tension_N, certificate.margins->length_m, certificate.margins->wrench_scale,
-                certificate.margins->clearance_m
-                    ? html(", <code>clearance_m</code> {}", *certificate.margins->clearance_m)
-                    : Html())
+          ? html("<p>Of the whole path: <code>tension_N</code> {}, <code>length_m</code> {}{}{}.</p>\n",
+                 certificate.margins->tension_N, certificate.margins->length_m,
+                 has_growth(certificate) ? html(", <code>wrench_scale</code> {}", certificate.margins->wrench_scale)
+                                         : Html(),
+                 certificate.margins->clearance_m
+                     ? html(", <code>clearance_m</code> {}", *certificate.margins->clearance_m)
+                     : Html())
           : Html();
   const char* const caption = has_all ? "Margins of each segment, exact" : "The least margins of segments, exact";
-  return section("exact-margins", "Margins as the certificate states them",
-                 whole +
-                     (has_all ? Html()
-                              : html("<p>The certificate has all {}. Here are those with the least "
-                                     "<code>wrench_scale</code>.</p>\n",
-                                     plural(count, "segment"))) +
-                     folded(count > kLongTable, html("{}", caption),
-                            exact_table(certificate, caption, has_all ? rows_of(scene, 1) : least_segments(scene))));
+  return section(
+      "exact-margins", "Margins as the certificate states them",
+      whole +
+          (has_all ? Html()
+                   : html("<p>The certificate has all {}. Here are those with the least "
+                          "<code>{}</code>.</p>\n",
+                          plural(count, "segment"), has_growth(certificate) ? "wrench_scale" : "tension_N")) +
+          folded(count > kLongTable, html("{}", caption),
+                 exact_table(certificate, caption, has_all ? rows_of(scene, 1) : least_segments(scene))));
 }
 
 }  // namespace taut

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "reports/page/page_script.h"
@@ -11,6 +12,7 @@
 #include "reports/page/robot_drawing.h"
 #include "reports/page/still_picture.h"
 #include "reports/summary/angles.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -67,11 +69,13 @@ Html bands_text(const ReportContext& scene) {
 constexpr const char* kArrangement = "All six share one scale. The cable that comes nearest to a limit is first.";
 
 Html tensions(const ReportContext& scene) {
-  return section("tensions", "Tensions along the path",
-                 html("<p>For each cable all tensions that the loads in K can ask of it. {} {} Shaded red: beyond the "
-                      "limits.{}</p>\n",
-                      kArrangement, bands_text(scene), marks_text(scene)) +
-                     unscripted() + place("tensions"));
+  return section(
+      "tensions", "Tensions along the path",
+      html("<p>For each cable all tensions that the loads in K can ask of it{}. {} {} Shaded red: beyond the "
+           "limits.{}</p>\n",
+           is_move(scene.certificate) ? ", with their inertia" : "", kArrangement, bands_text(scene),
+           marks_text(scene)) +
+          unscripted() + place("tensions"));
 }
 
 Html lengths(const ReportContext& scene) {
@@ -81,16 +85,34 @@ Html lengths(const ReportContext& scene) {
           unscripted() + place("lengths"));
 }
 
+/// Only of a move in time.
+Html winches(const ReportContext& scene) {
+  if (!is_move(scene.certificate)) return {};
+  const std::vector<RateUse> uses = rate_uses(scene);
+  const bool has_power =
+      std::ranges::any_of(uses, [](const RateUse& use) { return use.limit.id.kind == RateKind::kWinchPower; });
+  return section(
+      "winches", "Winches during the move",
+      html("<p>How fast each cable is wound, the acceleration of that{}: samples of the commanded motion, in floating "
+           "point. Positive: the cable becomes longer. Lines are the limits that are stated{}; shaded red: beyond "
+           "them.{}</p>\n",
+           has_power ? ", and power, which is the greatest tension times the speed" : "",
+           scene.verdict == "proved" ? ", which are proved to be kept" : "", marks_text(scene)) +
+          unscripted() + place("winch_speed") + place("winch_acceleration") +
+          (has_power ? place("winch_power") : Html()));
+}
+
 Html margins_along(const ReportContext& scene) {
   if (scene.certificate.segments.empty()) return {};
-  return section("margins-along", "Margins along the path",
-                 html("<p>How far inside the limits the worst of the six cables is. Steps: what the certificate proves "
-                      "of each segment; "
-                      "dashed: samples. A bound is as sharp as the proof needed it; the true margin is in between. The "
-                      "set of loads may "
-                      "grow by wrench_scale before a tension reaches a limit.{}</p>\n",
-                      marks_text(scene)) +
-                     unscripted() + place("margins"));
+  return section(
+      "margins-along", "Margins along the path",
+      html("<p>How far inside the limits the worst of the six cables is. Steps: what the certificate proves "
+           "of each segment; "
+           "dashed: samples. A bound is as sharp as the proof needed it; the true margin is in between.{}{}</p>\n",
+           is_move(scene.certificate) ? ""
+                                      : " The set of loads may grow by wrench_scale before a tension reaches a limit.",
+           marks_text(scene)) +
+          unscripted() + place("margins"));
 }
 
 /// The pairs that come nearest, in numbers.
@@ -206,8 +228,8 @@ Html move_section(const ReportContext& scene) {
 
 Html plot_sections(const ReportContext& scene) {
   if (!shows_path(scene)) return plane(scene);
-  return poses(scene) + tensions(scene) + lengths(scene) + clearances(scene) + margins_along(scene) + plane(scene) +
-         biting_tolerances(scene);
+  return poses(scene) + tensions(scene) + lengths(scene) + winches(scene) + clearances(scene) + margins_along(scene) +
+         plane(scene) + biting_tolerances(scene);
 }
 
 std::string page_scripts(const ReportContext& scene) {

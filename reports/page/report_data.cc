@@ -27,6 +27,7 @@
 #include "reports/summary/nearness.h"
 #include "reports/summary/numbers.h"
 #include "reports/summary/shown_bodies.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 #include "reports/summary/worst_place.h"
 
@@ -136,8 +137,9 @@ void widen_to_the_whole_path(const ReportContext& scene, CableUse& use) {
       widen(use.length[i].range, s.length[i], s.length[i]);
     }
   }
-  if (!scene.gravest || scene.gravest->violation.singular || scene.gravest->violation.contact) return;
+  if (!scene.gravest) return;
   const PathWitness& witness = scene.gravest->violation;
+  if (witness.singular || witness.contact || witness.rate) return;
   const MarginKind kind = witness.margin.kind;
   const bool is_length = kind == MarginKind::kLengthMin || kind == MarginKind::kLengthMax;
   widen((is_length ? use.length : use.tension)[static_cast<std::size_t>(witness.margin.cable)].range,
@@ -226,7 +228,11 @@ json samples(const ReportContext& scene) {
     position.push_back(sample.position);
     distance.push_back(scene.travel.distance_m(sample.position));
     turned.push_back(scene.travel.turned_rad(sample.position));
-    if (const auto t = scene.travel.time_s(sample.position)) time.push_back(number(*t));
+    if (sample.in_time) {
+      time.push_back(number(sample.in_time->time_s));  // that of a place is the first at which a move is there
+    } else if (const auto t = scene.travel.time_s(sample.position)) {
+      time.push_back(number(*t));
+    }
     RigidPose pose = scene.sampler.rigid_pose(sample);
     if (pose.q.dot(last) < 0) pose.q.coeffs() *= -1;
     last = pose.q;
@@ -236,7 +242,8 @@ json samples(const ReportContext& scene) {
     for (std::size_t c = 0; c < 4; ++c) q[c].push_back(pose.q.coeffs()(static_cast<Eigen::Index>(c)));
     const Statics<double>& s = sample.statics;
     sign.push_back(!s.regular ? 0 : s.determinant > 0 ? 1 : -1);
-    scale.push_back(s.regular ? wrench_scale_approx(model, s) : kUnknown);
+    // By how much K could grow is not asked of a move.
+    scale.push_back(s.regular && !sample.in_time ? wrench_scale_approx(model, s) : kUnknown);
     for (std::size_t i = 0; i < kCables; ++i) {
       length[i].push_back(s.length[i]);
       tension[i].push_back(s.regular ? s.tension[i] : kUnknown);
@@ -329,7 +336,7 @@ json bands(const std::vector<Bin>& bins) {
 }
 
 /// The least margins of runs of segments, at most kMostBins of them; null where nothing is proved.
-json margins(const std::vector<CertificateSegment>& segments, bool has_bodies) {
+json margins(const std::vector<CertificateSegment>& segments, bool has_bodies, bool in_time) {
   const std::size_t together = (segments.size() + kMostBins - 1) / kMostBins;
   json result = {{"from", json::array()}, {"to", json::array()}};
   const auto column = [&](const char* key, const auto& margin) {
@@ -347,7 +354,7 @@ json margins(const std::vector<CertificateSegment>& segments, bool has_bodies) {
   };
   column("tension_N", [](const Margins& m) { return m.tension_N; });
   column("length_m", [](const Margins& m) { return m.length_m; });
-  column("wrench_scale", [](const Margins& m) { return m.wrench_scale; });
+  if (!in_time) column("wrench_scale", [](const Margins& m) { return m.wrench_scale; });
   if (has_bodies) column("clearance_m", [](const Margins& m) { return m.clearance_m.value_or("0"); });
   for (std::size_t k = 0; k < segments.size(); k += together) {
     result["from"].push_back(k);
@@ -381,6 +388,32 @@ json stretches(const Certificate& certificate) {
   json result = json::array();
   for (const Part& s : list) {
     result.push_back({{"from", number(s.from)}, {"to", number(s.to)}, {"violated", s.violated}});
+  }
+  return result;
+}
+
+/// Rates of the six winches at the samples, and their limits; null of what is no move. Of power only where it has one.
+json winches(const ReportContext& scene) {
+  if (!is_move(scene.certificate)) return nullptr;
+  const std::vector<RateLimit> limits = rate_limits(*scene.certificate.problem.time);
+  json result = json::object();
+  for (const RateKind kind : {RateKind::kWinchSpeed, RateKind::kWinchAcceleration, RateKind::kWinchPower}) {
+    std::array<json, kCables> stated;
+    for (const RateLimit& limit : limits) {
+      if (limit.id.kind == kind) stated[static_cast<std::size_t>(limit.id.cable)] = number(limit.value);
+    }
+    const bool is_limited = std::ranges::any_of(stated, [](const json& limit) { return !limit.is_null(); });
+    if (kind == RateKind::kWinchPower && !is_limited) continue;
+    std::array<std::vector<double>, kCables> columns;
+    for (const PathSample& sample : scene.samples) {
+      for (std::size_t i = 0; i < kCables; ++i) {
+        const TimedSample& at = *sample.in_time;
+        columns[i].push_back(kind == RateKind::kWinchSpeed          ? at.winches.speed[i]
+                             : kind == RateKind::kWinchAcceleration ? at.winches.acceleration[i]
+                                                                    : at.winch_power[i]);
+      }
+    }
+    result[name(kind)] = {{"limits", stated}, {"values", json_columns(columns)}};
   }
   return result;
 }
@@ -514,8 +547,11 @@ json witness(const ReportContext& scene) {
           {"to", singular ? number(position(violation.to)) : json()},
           {"kind", singular            ? "singular"
                    : violation.contact ? "contact"
+                   : violation.rate    ? name(violation.rate->kind)
                                        : name(violation.margin.kind)},
-          {"cable", singular || violation.contact ? 0 : violation.margin.cable + 1}};
+          {"cable", violation.rate ? (is_of_winch(violation.rate->kind) ? violation.rate->cable + 1 : 0)
+                    : singular || violation.contact ? 0
+                                                    : violation.margin.cable + 1}};
 }
 
 /// Where poses are implied and the path is refuted, the end of the certificate's own witness: up to there the move is
@@ -637,7 +673,8 @@ json report_data(const ReportContext& scene) {
           {"samples", samples(scene)},
           {"cables", cables(scene)},
           {"bands", scene.ranges.segments.empty() ? json() : bands(bins(scene.ranges))},
-          {"margins", margins(certificate.segments, certificate.problem.bodies.has_value())},
+          {"margins", margins(certificate.segments, certificate.problem.bodies.has_value(), is_move(certificate))},
+          {"winches", winches(scene)},
           {"bodies", bodies(scene)},
           {"stretches", stretches(certificate)},
           {"witness", witness(scene)},

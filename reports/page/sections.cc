@@ -14,6 +14,7 @@
 #include "reports/summary/numbers.h"
 #include "reports/summary/scope.h"
 #include "reports/summary/sentences.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -31,6 +32,36 @@ Html motion_between_poses(Interpolation law) {
   return html(
       "<p>(p, R)(s) <span class=\"up\">the only pose in its tube with</span> |p + R b<sub>i</sub> − a<sub>i</sub>| = "
       "(1 − s) L<sub>k,i</sub> + s L<sub>k+1,i</sub>,&ensp;s ∈ [0, 1]</p>\n");
+}
+
+/// The claim about a move in time; `path` says what γ, K and σ are.
+Html formulas_in_time(const Certificate& certificate, const Html& path) {
+  const Html law = html(
+      "<p>s <span class=\"up\">=</span> σ(t), <span class=\"up\">a cubic B-spline of time that never falls, from 0 to "
+      "the number of segments; at s = k + x the pose is</span> γ<sub>k</sub>(x), <span class=\"up\">written</span> "
+      "γ(σ(t)); L <span class=\"up\">are the lengths</span> d <span class=\"up\">that are commanded</span></p>\n");
+  if (certificate.verdict == Verdict::kRefuted) {
+    return html(
+        "<div class=\"formulas\">{}{}"
+        "<p>∃ t ∈ [0, T], i, w ∈ K :&ensp; det J(γ(σ(t))) = 0 &ensp;<span class=\"up\">or</span>&ensp; "
+        "f<sub>i</sub> ∉ (f<sub>lo,i</sub>, f<sub>hi,i</sub>) <span class=\"up\">with</span> J f = w − "
+        "w<sub>in</sub>(t) &ensp;<span class=\"up\">or</span>&ensp; d<sub>i</sub> ∉ (d<sub>lo,i</sub>, "
+        "d<sub>hi,i</sub>) &ensp;<span class=\"up\">or a speed, an acceleration or a power is not below its "
+        "limit</span></p></div>\n",
+        path, law);
+  }
+  return html(
+      "<div class=\"formulas\">{}{}"
+      "<p>∀ t ∈ [0, T] &ensp;{}∀ w ∈ K &ensp;∀ i ∈ {{1, …, 6}}, <span class=\"up\">at the pose</span> γ(σ(t)){}:</p>\n"
+      "<p>&emsp;det J ≠ 0, &emsp; J f = w − w<sub>in</sub>(t) ⟹ f<sub>lo,i</sub> &lt; f<sub>i</sub> &lt; "
+      "f<sub>hi,i</sub>, &emsp; d<sub>lo,i</sub> &lt; d<sub>i</sub> &lt; d<sub>hi,i</sub></p>\n"
+      "<p>&emsp;<span class=\"up\">and below their limits, where such are stated:</span> |dL<sub>i</sub>/dt|, "
+      "|d²L<sub>i</sub>/dt²|, |f<sub>i</sub> dL<sub>i</sub>/dt|, <span class=\"up\">speed and acceleration of the load "
+      "point, and those of the platform's turning</span></p></div>\n",
+      path, law,
+      certificate.problem.tolerances ? html("∀ <span class=\"up\">deviations within the tolerances</span> &ensp;")
+                                     : Html(),
+      certificate.problem.tolerances ? html("<span class=\"up\">, moved by the deviation</span>") : Html());
 }
 
 Html formulas(const Certificate& certificate) {
@@ -59,6 +90,7 @@ Html formulas(const Certificate& certificate) {
       load.items.size());
   const Html set = load.items.empty() ? ellipsoid : load.ellipsoid ? items + html(" + ") + ellipsoid : items;
   const Html path = html("{}<p>K <span class=\"up\">=</span> {}</p>\n", motion, set);
+  if (is_move(certificate)) return formulas_in_time(certificate, path);
   if (certificate.verdict == Verdict::kRefuted) {
     return html(
         "<div class=\"formulas\">{}"
@@ -119,13 +151,14 @@ Html robot_tables(const Problem& problem, const DisplayUnits& units) {
 Html items_table(const LoadStatement& statement, const char* caption) {
   std::vector<std::vector<Html>> rows;
   for (const auto& [name, words] : statement.items) rows.push_back({html("<bdi>{}</bdi>", name), html("{}", words)});
-  return html("<p>{} {}</p>\n", statement.total, statement.spread) +
+  const std::string inertia = statement.inertia.empty() ? "" : " " + statement.inertia;
+  return html("<p>{} {}{}</p>\n", statement.total, statement.spread, inertia) +
          table(html("{}", caption), {{html("Item")}, {html("What it is")}}, rows);
 }
 
 /// The items in words, and those that the case puts an ellipsoid around.
 Html load_tables(const Certificate& certificate) {
-  Html result = items_table(load_statement(certificate.problem.load),
+  Html result = items_table(stated_load(certificate),
                             "What the load consists of; K is the sum. Ranges with many digits are rounded inward");
   if (const auto items = stated_items(certificate)) {
     result += html("<p class=\"note\">{}</p>\n", kItemsNotChecked) +
@@ -216,7 +249,14 @@ Html theorem(const Certificate& certificate) {
     rows.push_back(
         row(html("w<sub>0</sub>, E"), html("centre and matrix of the load ellipsoid"), html("N, N·m; 1/N², 1/(N·m)²")));
   }
-  if (load.items.empty()) {
+  if (is_move(certificate)) {
+    rows.push_back(row(html("σ(t)"),
+                       html("where on the path the move is at the time t: 2.5 is the middle of segment 2"), html("1")));
+    rows.push_back(row(html("w<sub>in</sub>(t)"),
+                       html("wrench that changes the momenta of the load's weights, for all that their tolerances "
+                            "allow"),
+                       html("N, N·m")));
+  } else if (load.items.empty()) {
     rows.push_back(row(html("f<sub>0,i</sub> ± v<sub>i</sub>"),
                        html("least and greatest tension of cable i over all wrenches in K"), html("N")));
   }
@@ -237,7 +277,7 @@ Html assumptions(const Certificate& certificate) {
       html("<p>The claim is about a mathematical model. Whoever signs this report vouches that the machine "
            "agrees with it.</p>\n<div class=\"scopes\"><div><h3>Assumed</h3>\n{}</div>\n<div><h3>Not covered</h3>\n"
            "{}</div></div>\n",
-           list(assumed(certificate.problem, certificate.path.interpolation)), list(not_covered(certificate.problem))));
+           list(assumed(certificate)), list(not_covered(certificate))));
 }
 
 Html headroom(const ReportContext& scene) {
@@ -337,6 +377,14 @@ Html path_section(const ReportContext& scene) {
                 "where that stands three times in a row");
   const std::size_t step = step_for(count);
   const bool constrained = !scene.certificate.problem.space.constraints.empty();
+  const std::optional<TimeLaw>& law = scene.certificate.path.timing;
+  const Html timing =
+      !is_move(scene.certificate)
+          ? Html()
+          : html(
+                "<p>The move takes T = {:.9g} s. When it is where on the path is a uniform cubic B-spline of time with "
+                "{} control values, one every {:.9g} s; the certificate has all of their digits.</p>\n",
+                law->duration_s(), law->controls.size(), law->step_s);
   return section(
       "path", "Path",
       html("<p>{}, numbered from 0; {}. Interpolation: <code>{}</code>.{} {}Poses are rounded, "
@@ -345,7 +393,7 @@ Html path_section(const ReportContext& scene) {
            plural(count, "waypoint"), segments, interpolation_name(scene.certificate.path.interpolation),
            constrained ? on_constraints(scene) : Html(),
            step == 1 ? Html() : html("Every {}th of them is shown. ", step)) +
-          folded(count > kLongTable, html("{}", plural(count, "waypoint")), pose_table(scene, step)));
+          timing + folded(count > kLongTable, html("{}", plural(count, "waypoint")), pose_table(scene, step)));
 }
 
 namespace {

@@ -11,6 +11,7 @@
 #include "reports/summary/load_statement.h"
 #include "reports/summary/scope.h"
 #include "reports/summary/sentences.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -80,8 +81,17 @@ void add_scope(Builder& builder, const ReportContext& scene, const std::string& 
   context(fmt::format("Machine and limits: the exact numbers of the certificate's problem, SHA-256 {}.",
                       certificate.problem_sha256),
           fmt::format("Machine and limits: as stated (problem {})", short_digest(certificate.problem_sha256)));
-  const LoadStatement load = load_statement(certificate.problem.load);
-  context(fmt::format("Loads: {} {}", load.total, load.spread), "Loads: all of the stated set");
+  const LoadStatement load = stated_load(certificate);
+  context(fmt::format("Loads: {} {}{}{}", load.total, load.spread, load.inertia.empty() ? "" : " ", load.inertia),
+          load.inertia.empty() ? "Loads: all of the stated set" : "Loads: all of the stated set, with its inertia");
+  if (is_move(certificate)) {
+    const TimeLaw& law = *certificate.path.timing;
+    context(
+        fmt::format("{} The move takes T = {}: a cubic B-spline of time with {} control values, part of the path.",
+                    time_limits_text(*certificate.problem.time, units), seconds_text(law.duration_s()),
+                    law.controls.size()),
+        fmt::format("Time: T = {}; limits of speed, acceleration and power as stated", seconds_text(law.duration_s())));
+  }
   context(fmt::format("Tolerances: {}", tolerances_text(certificate.problem.tolerances, units)),
           certificate.problem.tolerances ? "Tolerances: as stated, all at once" : "Tolerances: none");
   if (certificate.problem.bodies) {
@@ -94,7 +104,7 @@ void add_scope(Builder& builder, const ReportContext& scene, const std::string& 
                       plural(certificate.path.segments(), "segment"), certificate.path_sha256),
           fmt::format("Path: {} (path {})", plural(certificate.path.segments(), "segment"),
                       short_digest(certificate.path_sha256)));
-  for (const ScopeItem& item : assumed(certificate.problem, certificate.path.interpolation)) {
+  for (const ScopeItem& item : assumed(certificate)) {
     builder.put_in_context(claim, builder.add(Kind::kAssumption, item.text, capitalised(item.brief)));
   }
 }
@@ -123,25 +133,29 @@ void add_proof(Builder& builder, const ReportContext& scene, const std::string& 
                             "arithmetic of its own, proves each box again.",
                             "A second program, with equations and arithmetic of its own, proves each box again"));
   const bool has_bodies = certificate.problem.bodies.has_value();
+  const bool in_time = is_move(certificate);
   const std::string each = builder.add(
       Kind::kGoal,
       fmt::format(
-          "The boxes cover the path without gaps. Over each of them, every tension and every length is strictly "
-          "inside its limits, {}the force Jacobian is not singular{}.",
+          "The boxes cover the path without gaps. Over each of them, {}every tension and every length is strictly "
+          "inside its limits, {}{}the force Jacobian is not singular{}.",
+          in_time ? "at all times at which the move is there, " : "",
+          in_time ? "every speed, acceleration and power is below the limit that is stated of it, " : "",
           has_bodies ? "" : "and ",
           has_bodies ? fmt::format(", and the bodies of every checked pair are farther apart than their clearance{}",
                                    but_in_contacts(*certificate.problem.bodies))
                      : ""),
-      fmt::format("The boxes leave no gap; over each, tensions and lengths are inside their limits{} det J ≠ 0{}",
-                  has_bodies ? "," : " and", has_bodies ? ", bodies apart" : ""));
+      fmt::format("The boxes leave no gap; over each, tensions and lengths{} are inside their limits{} det J ≠ 0{}",
+                  in_time ? " and rates" : "", has_bodies ? "," : " and", has_bodies ? ", bodies apart" : ""));
   builder.support(by_boxes, each);
   const Margins& margins = *certificate.margins;
   builder.support(
-      each, builder.add(Kind::kSolution,
-                        fmt::format("The certificate, SHA-256 {}. {}", certificate.footer_sha256,
-                                    margins_text(margins.tension_N, margins.length_m, margins.wrench_scale,
-                                                 scene.illustration.units, margins.clearance_m)),
-                        fmt::format("Certificate: {}, SHA-256 {}", boxes, short_digest(certificate.footer_sha256))));
+      each,
+      builder.add(Kind::kSolution,
+                  fmt::format("The certificate, SHA-256 {}. {}", certificate.footer_sha256,
+                              margins_text(margins.tension_N, margins.length_m, in_time ? "" : margins.wrench_scale,
+                                           scene.illustration.units, margins.clearance_m)),
+                  fmt::format("Certificate: {}, SHA-256 {}", boxes, short_digest(certificate.footer_sha256))));
   builder.support(each, builder.add(Kind::kSolution,
                                     fmt::format("{} proved the certificate again: {}.", scene.recheck.checker,
                                                 scene.recheck.message),
@@ -162,19 +176,23 @@ std::vector<AssuranceNode> assurance_case(const ReportContext& scene, const std:
   builder.support(top, hazards);
   const bool has_tolerances = scene.certificate.problem.tolerances.has_value();
   const bool has_bodies = scene.certificate.problem.bodies.has_value();
+  const bool in_time = is_move(scene.certificate);
   const std::string claim = builder.add(
       Kind::kGoal,
-      fmt::format("At every pose of the move, under every stated load{}, all six tensions and all six lengths are "
-                  "strictly inside their limits, {}no singular pose is met{}.",
-                  has_tolerances ? " and for every machine within the tolerances" : "", has_bodies ? "" : "and ",
-                  has_bodies
-                      ? fmt::format(", and the bodies of every checked pair are farther apart than their clearance{}",
-                                    but_in_contacts(*scene.certificate.problem.bodies))
-                      : ""));
+      fmt::format(
+          "At every {} of the move, under every stated load{}, all six tensions and all six lengths are "
+          "strictly inside their limits, {}{}no singular pose is met{}.",
+          in_time ? "time" : "pose",
+          std::string(in_time ? " with its inertia" : "") +
+              (has_tolerances ? " and for every machine within the tolerances" : ""),
+          in_time ? "every stated limit of speed, acceleration and power is kept, " : "", has_bodies ? "" : "and ",
+          has_bodies ? fmt::format(", and the bodies of every checked pair are farther apart than their clearance{}",
+                                   but_in_contacts(*scene.certificate.problem.bodies))
+                     : ""));
   builder.support(hazards, claim);
   add_scope(builder, scene, claim);
   add_proof(builder, scene, claim);
-  for (const ScopeItem& item : not_covered(scene.certificate.problem)) {
+  for (const ScopeItem& item : not_covered(scene.certificate)) {
     builder.support(hazards, builder.add_undeveloped(item.goal));
   }
   return std::move(builder).nodes();

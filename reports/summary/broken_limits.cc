@@ -11,9 +11,11 @@
 #include <limits>
 
 #include "certify/severity.h"
+#include "problem/expression.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/numbers.h"
 #include "reports/summary/sentences.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -24,6 +26,7 @@ bool is_same(const BrokenLimit& a, const BrokenLimit& b) {
   if (a.is_reached != b.is_reached) return false;
   if (a.is_singular || b.is_singular) return a.is_singular && b.is_singular;
   if (a.bodies || b.bodies) return a.bodies && b.bodies && a.bodies->pair == b.bodies->pair;
+  if (a.rate || b.rate) return a.rate == b.rate;
   return a.margin == b.margin;
 }
 
@@ -75,9 +78,14 @@ BrokenLimit broken_limit(const ReportContext& scene, const PathWitness& witness)
         scene.bodies ? distance_at(scene, broken.position, witness.contact->pair) : proved_distance(scene, witness));
     return broken;
   }
-  broken.severity = severity(witness, scene.certificate.problem.robot);
+  broken.severity = taut::severity_of(witness, scene.certificate.problem);
   if (witness.singular) {
     broken.to = position(witness.to);
+    return broken;
+  }
+  if (witness.rate) {
+    broken.rate = witness.rate;
+    broken.value = nearest_double(witness.value_lower);
     return broken;
   }
   broken.margin = witness.margin;
@@ -165,6 +173,20 @@ std::vector<BrokenLimit> sampled_limits(const ReportContext& scene) {
   return all;
 }
 
+/// Of a move, what samples show to be too fast: of winches the one that uses most of its limit.
+std::vector<BrokenLimit> sampled_rates(const ReportContext& scene) {
+  std::vector<BrokenLimit> all;
+  for (const RateUse& use : rate_uses(scene)) {
+    if (!(use.share() >= 1)) continue;
+    BrokenLimit& broken = all.emplace_back();
+    broken.rate = use.limit.id;
+    broken.value = use.size;
+    broken.severity = use.share() - 1;
+    broken.position = broken.to = use.position;
+  }
+  return all;
+}
+
 /// Of the pairs that come nearest, those that samples show too near.
 std::vector<BrokenLimit> sampled_contacts(const ReportContext& scene) {
   std::vector<BrokenLimit> all;
@@ -200,6 +222,7 @@ std::vector<BrokenLimit> broken_limits(const ReportContext& scene) {
   if (!is_shown || certificate.verdict == Verdict::kProved) return result;
   std::vector<BrokenLimit> sampled = sampled_limits(scene);
   std::ranges::move(sampled_contacts(scene), std::back_inserter(sampled));
+  std::ranges::move(sampled_rates(scene), std::back_inserter(sampled));
   sort_by_severity(sampled);
   const std::size_t proved = result.size();
   for (BrokenLimit& broken : sampled) {
@@ -216,6 +239,7 @@ std::string what_text(const BrokenLimit& broken) {
   if (broken.is_singular) return machine;
   if (broken.bodies && broken.bodies->is_in_cone) return "is left";
   if (broken.bodies) return broken.bodies->distance < 0 ? "in each other" : "nearer than their clearance";
+  if (broken.rate) return too_fast_text(broken.rate->kind);
   const bool upper = is_upper(broken.margin);
   const char* const what = is_length(broken.margin) ? (upper ? "too long" : "too short")
                            : upper                  ? "above its top tension"
@@ -229,6 +253,7 @@ std::string subject_text(const ReportContext& scene, const BrokenLimit& broken) 
     const BodiesText& bodies = *scene.certificate.problem.bodies;
     return name(bodies, pairs(bodies).at(broken.bodies->pair));
   }
+  if (broken.rate) return subject_of(*broken.rate);
   return fmt::format("Cable {}", broken.margin.cable + 1);
 }
 
@@ -239,8 +264,20 @@ std::string amount_text(const ReportContext& scene, const BrokenLimit& broken) {
     return fmt::format("{}; {}", apart_text(*broken.bodies, length),
                        asked_text(*broken.bodies, *scene.certificate.problem.bodies, length));
   }
+  const DisplayUnits& units = scene.illustration.units;
+  const Problem& problem = scene.certificate.problem;
+  if (broken.rate && broken.proof) {
+    return fmt::format("at least {}; limit {}", rate_value_text(*broken.proof, problem, units),
+                       rate_limit_text(*problem.time, *broken.rate, units));
+  }
+  if (broken.rate) {
+    const ExpressionText& text = limit_of(*problem.time, *broken.rate);
+    return fmt::format("about {}; limit {}",
+                       size_text({{*broken.rate, text, evaluate_constant<double>(text)}, broken.value}, units),
+                       rate_limit_text(*problem.time, *broken.rate, units));
+  }
   const bool length = is_length(broken.margin);
-  const DisplayUnit& unit = scene.illustration.units.of(length);
+  const DisplayUnit& unit = units.of(length);
   const std::string limit = fmt::format("limit {} {}", unit.exact(broken.limit), unit.name());
   if (!broken.proof) {
     return fmt::format("about {} {}; {}", sampled_text(broken.value, nearest_double(broken.limit), unit), unit.name(),

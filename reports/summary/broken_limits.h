@@ -17,11 +17,12 @@ struct BrokenLimit {
   std::optional<PathWitness> proof;
   bool is_singular = false;  ///< the force Jacobian is singular between `position` and `to`; no limit is named then
   std::optional<BodyDistance> bodies = {};  ///< which bodies are too near, in floating point; no limit is named then
-  MarginId margin;                          ///< which limit of which cable; unless singular or of bodies
-  DecimalText limit;                        ///< [N, m]; of bodies their clearance; unless singular
+  std::optional<RateId> rate = {};          ///< of a move: what is too fast; no margin is named then
+  MarginId margin;                          ///< which limit of which cable; unless singular, of bodies or of a rate
+  DecimalText limit;                        ///< [N, m]; of bodies their clearance; unless singular or of a rate
   double value = 0;  ///< what is beyond the limit [N, m]: for proved ones the end next to it; unless singular
-  /// value − limit as a share of the width between the limits; infinite if singular; of bodies more than that of any
-  /// limit, and the more the nearer they are
+  /// value − limit as a share of the width between the limits, of a rate of the limit; infinite if singular; of bodies
+  /// more than that of any limit, and the more the nearer they are
   double severity = 0;
   double position = 0;        ///< k + s is the point s of segment k
   double to = 0;              ///< the other end, if singular; else the same
@@ -32,7 +33,7 @@ struct BrokenLimit {
 
   [[nodiscard]] bool is_proved() const { return proof.has_value(); }
   /// Whether it is a limit of the tension or the length of a cable.
-  [[nodiscard]] bool is_of_cable() const { return !is_singular && !bodies; }
+  [[nodiscard]] bool is_of_cable() const { return !is_singular && !bodies && !rate; }
 };
 
 /// First the limits that witnesses of the certificate prove broken, the gravest first; then those proved of poses that

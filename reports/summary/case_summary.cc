@@ -19,6 +19,7 @@
 #include "reports/summary/samples.h"
 #include "reports/summary/scene.h"
 #include "reports/summary/sentences.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -248,6 +249,15 @@ std::string to_text(const CaseSummary& summary) {
     text += "\n";
   }
   text += space_text(problem.space) + "\n";
+  if (problem.time) {
+    text += "Time (of the move between the waypoints; at these the platform is at rest)\n";
+    text += "  " + time_limits_text(*problem.time, units) + "\n";
+    if (const double jerk = summary.source.move.jerk_m_s3; std::isfinite(jerk)) {
+      text += fmt::format("  Planned with a jerk of the load point of at most {:.6g} {}/s³; that is not proved.\n",
+                          units.length.approx(jerk), units.length.name());
+    }
+    text += fmt::format("  Tables have {:.6g} rows a second.\n\n", summary.source.move.rate_Hz);
+  }
   text += fmt::format("Path between waypoints: {}\n", law_text(summary.source));
   if (summary.waypoints.empty()) return text + "No query: a case for taut audit.\n";
   for (std::size_t k = 0; k < summary.waypoints.size(); ++k) {

@@ -50,6 +50,12 @@ std::string DisplayUnit::fixed(double si, int decimals) const {
   return fmt::format("{:.{}f}", approx(si) + 0.0, std::max(0, decimals - shift));
 }
 
+DisplayUnit DisplayUnit::with(const std::string& more) const {
+  DisplayUnit result = *this;
+  result.name_ += more;
+  return result;
+}
+
 DisplayUnits::DisplayUnits(const CaseUnits& units)
     : length(units.length, "mm"),
       force(units.force, "N"),

@@ -28,6 +28,8 @@ class DisplayUnit {
   [[nodiscard]] double approx(double si) const;
   /// The same with as many decimals as `decimals` decimals in SI are: 6 decimals of metres are 3 of millimetres.
   [[nodiscard]] std::string fixed(double si, int decimals) const;
+  /// A unit of the same size with more behind its name: "mm/s".
+  [[nodiscard]] DisplayUnit with(const std::string& more) const;
 
  private:
   std::string name_;

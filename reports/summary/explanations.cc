@@ -160,6 +160,14 @@ Explanation explained(Undecided reason) {
           "Keep the path further from the bodies named, state a smaller clearance, smaller tolerances, or longer free "
           "ends.",
           "open: bodies were not proved to stay apart: cable 1 / cable 2 [U18].");
+    case Undecided::kSlowing:
+      return entry(
+          "A limit may not be kept while the move is slowed down",
+          "At its full speed the move keeps its limits at this place. While it is slowed down to rest, or up again, "
+          "within the stated time, a tension or an acceleration may not be within its limit.",
+          "A time.may_stop that is short for this machine: braking takes more than its limits allow.",
+          "State a longer time.may_stop, or run the move at a lower speed.",
+          "open: a limit may not be kept while the move is slowed down [U19]");
   }
   return {};
 }

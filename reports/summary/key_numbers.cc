@@ -12,6 +12,7 @@
 #include "problem/decimal.h"
 #include "reports/summary/numbers.h"
 #include "reports/summary/sentences.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -334,6 +335,48 @@ std::optional<KeyNumber> clearance_number(const ReportContext& scene, bool is_pr
       has_bound};
 }
 
+const char* title_of_rate(RateKind kind) {
+  switch (kind) {
+    case RateKind::kWinchSpeed: return "Fastest winch";
+    case RateKind::kWinchAcceleration: return "Greatest acceleration of a winch";
+    case RateKind::kWinchPower: return "Greatest power of a winch";
+    case RateKind::kLoadSpeed: return "Greatest speed of the load point";
+    case RateKind::kLoadAcceleration: return "Greatest acceleration of the load point";
+    case RateKind::kLoadAngularSpeed: return "Fastest turning of the platform";
+    case RateKind::kLoadAngularAcceleration: break;
+  }
+  return "Greatest angular acceleration of the platform";
+}
+
+KeyNumber duration_number(const ReportContext& scene, bool is_proved) {
+  const TimeLaw& law = *scene.certificate.path.timing;
+  return {"duration",
+          "Duration of the move",
+          "T = " + seconds_text(law.duration_s()),
+          "from rest to rest, as the certificate states it",
+          Nearness::kCalm,
+          is_proved};
+}
+
+/// Samples of the machine as stated; what is proved is that the limits are kept. A fast move uses its limits on
+/// purpose: colours only tell whether they are kept.
+KeyNumber rate_number(const ReportContext& scene, const RateUse& use, bool is_proved) {
+  const DisplayUnits& units = scene.illustration.units;
+  const RateId id = use.limit.id;
+  constexpr double kPercent = 100;
+  const std::string size = size_text(use, units);
+  const double percent = kPercent * use.share();
+  const std::string share = percent < kPercent ? rounded_down(percent, kDigits) : rounded_up(percent, kDigits);
+  KeyNumber result{name(id.kind), title_of_rate(id.kind),
+                   is_of_winch(id.kind) ? fmt::format("cable {}, {}", id.cable + 1, size) : size,
+                   fmt::format("{} % of {} at t = {} · {}", share,
+                               rate_limit_text(*scene.certificate.problem.time, id, units), seconds_text(use.time_s),
+                               is_proved ? "sampled; that the limit is kept is proved" : "sampled, not proved"),
+                   use.share() < 1 ? Nearness::kCalm : Nearness::kOut};
+  result.is_of_rate = true;
+  return result;
+}
+
 }  // namespace
 
 std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& use) {
@@ -348,7 +391,11 @@ std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& u
   if (const auto clearance = clearance_number(scene, is_proved); clearance && !numbers.empty()) {
     numbers.push_back(*clearance);
   }
-  if (is_proved) {
+  if (is_move(scene.certificate)) {
+    if (numbers.empty()) return numbers;
+    numbers.push_back(duration_number(scene, is_proved));
+    for (const RateUse& rate : rate_uses(scene)) numbers.push_back(rate_number(scene, rate, is_proved));
+  } else if (is_proved) {
     numbers.push_back(growth_number(scene));
   } else if (const std::optional<KeyNumber> share = share_number(scene)) {
     numbers.push_back(*share);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers that a move is judged by: how near it comes to going slack, to the greatest tension and to the ends of
-// the cables, how near bodies come to their clearances, and by how much the loads could grow. Page, terminal and JSON
-// have the same ones.
+// the cables, how near bodies come to their clearances, and by how much the loads could grow; of a move in time instead of
+// the last how long it takes, and how much it uses of its limits of speed, acceleration and power. Page, terminal and
+// JSON have the same ones.
 #pragma once
 
 #include <string>
@@ -13,12 +14,13 @@
 namespace taut {
 
 struct KeyNumber {
-  const char* key;         ///< for machines: "slack", "top", "length", "clearance" or "growth"
-  std::string title;       ///< "Closest to going slack"
-  std::string value;       ///< "Cable 1: +1.86 %"
-  std::string detail;      ///< "0.0509 N, limit 0.05 N · after 41° of turning (segment 3)"
-  Nearness nearness;       ///< how near any of the six cables is
-  bool is_proved = false;  ///< else it rests on floating-point samples, or on what nothing has checked
+  const char* key;     ///< for machines: "slack", "top", "length", "clearance", "growth", "duration" or a RateKind's
+  std::string title;   ///< "Closest to going slack"
+  std::string value;   ///< "Cable 1: +1.86 %"
+  std::string detail;  ///< "0.0509 N, limit 0.05 N · after 41° of turning (segment 3)"
+  Nearness nearness;   ///< how near any of the six cables is
+  bool is_proved = false;   ///< else it rests on floating-point samples, or on what nothing has checked
+  bool is_of_rate = false;  ///< of a limit of speed, acceleration or power
 };
 
 /// Proved where the whole move is proved: then rounded so that every one of them is true of the move. Else of samples,

@@ -8,6 +8,7 @@
 
 #include "reports/summary/bodies_statement.h"
 #include "reports/summary/summary.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -82,7 +83,7 @@ LiftPlanItem clearances_item(const ReportContext& scene, const Summary& s) {
                     "Collisions are not examined here: all clearances along the path. Lift planner."};
   const std::optional<BodiesText>& bodies = scene.certificate.problem.bodies;
   if (!bodies) return item;
-  const std::string rest = in_full({not_covered(scene.certificate.problem).front()});
+  const std::string rest = in_full({not_covered(scene.certificate).front()});
   if (scene.verdict != "proved") {
     item.open = "This report proves no clearances. All along the path. Lift planner.";
     return item;
@@ -98,14 +99,35 @@ LiftPlanItem clearances_item(const ReportContext& scene, const Summary& s) {
   return item;
 }
 
+/// Forces of inertia and the limits in time, where they are proved; else that only the stated loads have some.
+LiftPlanItem dynamics_item(const ReportContext& scene) {
+  LiftPlanItem item{"dynamics", kMovement, "Speed and dynamic loads",
+                    "Forces of inertia as far as the stated loads contain them.",
+                    "Speeds and accelerations at which they suffice. Lift planner."};
+  if (!is_move(scene.certificate)) return item;
+  if (scene.verdict != "proved") {
+    item.filled.clear();
+    item.open = "This report proves nothing about speeds and forces of inertia. Lift planner.";
+    return item;
+  }
+  const Problem& problem = scene.certificate.problem;
+  item.filled =
+      fmt::format("The move takes T = {}. Forces of inertia of the weights are covered at every time of it. {}",
+                  seconds_text(scene.certificate.path.timing->duration_s()),
+                  time_limits_text(problem.time.value(), scene.illustration.units));
+  item.open =
+      "That the drives keep to the times, speeds and accelerations; vibration, jerk and stops on the way. Lift "
+      "planner.";
+  return item;
+}
+
 std::vector<LiftPlanItem> movement_items(const ReportContext& scene, const Summary& s) {
   const bool is_found = !found_no_path(scene.certificate) && !scene.certificate.path.waypoints.empty();
   return {
       {"travel_path", kMovement, "Travel path of the load", is_found ? s.move : "",
        is_found ? "Step-by-step procedure with hold points. Lift director." : "The path. Lift planner."},
       clearances_item(scene, s),
-      {"dynamics", kMovement, "Speed and dynamic loads", "Forces of inertia as far as the stated loads contain them.",
-       "Speeds and accelerations at which they suffice. Lift planner."},
+      dynamics_item(scene),
       {"personnel", kPeople, "Persons, roles and qualifications", stated(s.prepared_by, "Prepared by"),
        "Lift director, operators, riggers, signal persons. Lift director."},
       {"communication", kPeople, "Communication, signals", "", "Method, and what happens if it fails. Lift director."},

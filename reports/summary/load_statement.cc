@@ -15,6 +15,7 @@
 #include "problem/decimal.h"
 #include "problem/rational.h"
 #include "reports/summary/numbers.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -429,8 +430,14 @@ LoadStatement load_statement(const LoadText& load) {
   return result;
 }
 
+LoadStatement load_statement(const Problem& problem) {
+  LoadStatement result = load_statement(problem.load);
+  if (problem.time && result.mass_kg) result.inertia = inertia_text(problem.load);
+  return result;
+}
+
 LoadStatement load_statement(const Case& the_case) {
-  LoadStatement result = load_statement(the_case.problem.load);
+  LoadStatement result = load_statement(the_case.problem);
   if (the_case.items_in_ellipsoid) {
     LoadText items = *the_case.items_in_ellipsoid;
     items.point_m = the_case.problem.load.point_m;
@@ -453,6 +460,7 @@ void add_lines(const LoadStatement& statement, bool with_items, std::vector<std:
   }
   result.push_back(statement.total);
   result.push_back(statement.spread);
+  if (!statement.inertia.empty()) result.push_back(statement.inertia);
   if (!with_items) return;
   for (const auto& [name, words] : statement.items) result.push_back(fmt::format("{}: {}.", quoted_name(name), words));
 }

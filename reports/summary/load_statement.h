@@ -33,8 +33,9 @@ struct LoadStatement {
   std::array<double, 6> nominal{};                           ///< force [N], moment [N m]; rounded
   std::array<StatedRange, 6> extremes;                       ///< of each component over K, enclosed
 
-  std::string total;   ///< "In all 19.76 to 20.24 t, …", or the nominal wrench where there are no weights
-  std::string spread;  ///< the extremes of each component
+  std::string total;    ///< "In all 19.76 to 20.24 t, …", or the nominal wrench where there are no weights
+  std::string spread;   ///< the extremes of each component
+  std::string inertia;  ///< of a problem with limits in time: which weights are boxes and which are points; else empty
   std::vector<std::pair<std::string, std::string>> items;  ///< name and words: "payload", "11.76 to 12.24 t, …"
 
   /// What was said of the items, about the same load point, where K is an ellipsoid that was made around them.
@@ -44,6 +45,8 @@ struct LoadStatement {
 /// @pre the load is valid.
 /// @throws InputError for numbers beyond the range of binary64, and for an ellipsoid all but singular.
 [[nodiscard]] LoadStatement load_statement(const LoadText& load);
+/// The same with the inertia of a problem that has limits in time.
+[[nodiscard]] LoadStatement load_statement(const Problem& problem);
 
 /// The same of a case, whose K may be an ellipsoid around its items.
 [[nodiscard]] LoadStatement load_statement(const Case& the_case);

@@ -13,7 +13,26 @@ std::vector<double> resolved(const Waypoint& waypoint) {
   return result;
 }
 
+Sampler::Sampler(const Problem& problem) : poses_(problem) {
+  if (problem.time && problem.space.constraints.empty()) moves_.emplace(problem);
+}
+
+bool Sampler::is_timed(const Path& path) const {
+  return moves_ && path.timing && path.segments() > 0 && PathRatesModel<double>::knows(path.interpolation);
+}
+
 PathSample Sampler::at(const Path& path, double position) const {
+  PathSample sample = pose_at(path, position);
+  if (is_timed(path)) {
+    sample.in_time = moves_->at_place(path, position);
+    sample.statics = sample.in_time->statics;
+  } else {
+    sample.statics = poses_.statics(sample.pose);
+  }
+  return sample;
+}
+
+PathSample Sampler::pose_at(const Path& path, double position) const {
   const std::size_t segments = path.segments();
   const bool at_end = position >= static_cast<double>(segments);
   const std::size_t k = at_end && segments > 0 ? segments - 1 : static_cast<std::size_t>(position);
@@ -24,7 +43,6 @@ PathSample Sampler::at(const Path& path, double position) const {
   sample.parameters = at_last_waypoint ? poses_.parameters(Segment::straight(last, last), 0)
                                        : poses_.parameters(path.segment(k), position - static_cast<double>(k));
   sample.pose = pose(sample.parameters);
-  sample.statics = poses_.statics(sample.pose);
   return sample;
 }
 
@@ -33,6 +51,20 @@ std::vector<PathSample> Sampler::along(const Path& path, std::size_t budget) con
   if (path.waypoints.empty()) return samples;
   const std::size_t segments = path.segments();
   if (segments == 0) return {at(path, 0)};
+  if (is_timed(path)) {
+    const std::size_t count = std::max(budget, std::size_t{2});
+    for (std::size_t i = 0; i <= count; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(count);
+      TimedSample in_time = moves_->at_time(path, share * path.timing->duration_s());
+      // A law's value at its ends is exact but for rounding.
+      if (i == 0) in_time.place.s = 0;
+      if (i == count) in_time.place.s = static_cast<double>(segments);
+      PathSample& sample = samples.emplace_back(pose_at(path, in_time.place.s));
+      sample.statics = in_time.statics;
+      sample.in_time = std::move(in_time);
+    }
+    return samples;
+  }
   const std::size_t per_segment = std::max<std::size_t>(1, budget / segments);
   const std::size_t count = std::min(per_segment * segments, std::max(budget, std::size_t{2}));
   for (std::size_t i = 0; i <= count; ++i) {

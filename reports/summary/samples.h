@@ -7,6 +7,7 @@
 
 #include "kinematics/pose_sampler.h"
 #include "kinematics/statics.h"
+#include "reports/summary/timed_sampler.h"
 
 namespace taut {
 
@@ -15,24 +16,32 @@ struct PathSample {
   double position = 0;
   std::vector<double> parameters;
   Pose<double> pose;
-  Statics<double> statics;
+  Statics<double> statics;             ///< of a move with the inertia of the load
+  std::optional<TimedSample> in_time;  ///< of a move
 };
 
 /// Evaluates poses and statics of one problem in floating point.
 class Sampler {
  public:
-  explicit Sampler(const Problem& problem) : poses_(problem) {}
+  explicit Sampler(const Problem& problem);
 
   [[nodiscard]] const Model<double>& model() const { return poses_.model(); }
   [[nodiscard]] Pose<double> pose(const std::vector<double>& parameters) const { return poses_.pose(parameters); }
   [[nodiscard]] Pose<double> pose(const Waypoint& waypoint) const { return poses_.pose(waypoint); }
   [[nodiscard]] RigidPose rigid_pose(const PathSample& sample) const { return poses_.rigid_pose(sample.pose); }
   [[nodiscard]] PathSample at(const Path& path, double position) const;
-  /// About `budget` poses in order, including both ends and, if the budget allows, every waypoint.
+  /// About `budget` poses in order, including both ends and, if the budget allows, every waypoint; of a move equally
+  /// spaced in time.
   [[nodiscard]] std::vector<PathSample> along(const Path& path, std::size_t budget) const;
 
  private:
+  /// is_in_time() of the problem and this path.
+  [[nodiscard]] bool is_timed(const Path& path) const;
+  /// @param position  within the path
+  [[nodiscard]] PathSample pose_at(const Path& path, double position) const;
+
   PoseSampler poses_;
+  std::optional<TimedSampler> moves_;  ///< of a problem with limits in time
 };
 
 /// λ = x + π half_turns.

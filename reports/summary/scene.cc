@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "certificate/certificate_reader.h"
-#include "certify/severity.h"
 #include "problem/decimal.h"
 #include "reports/summary/numbers.h"
+#include "reports/summary/time_statement.h"
 
 namespace taut {
 
@@ -127,8 +127,8 @@ std::optional<Witness> gravest_of(const Certificate& certificate) {
   if (is_implied(certificate) || !certificate.witness) return certificate.witness;
   const Witness* gravest = &*certificate.witness;
   const auto consider = [&](const Witness& witness) {
-    const RobotText& robot = certificate.problem.robot;
-    if (severity(witness.violation, robot) > severity(gravest->violation, robot)) gravest = &witness;
+    const Problem& problem = certificate.problem;
+    if (severity_of(witness.violation, problem) > severity_of(gravest->violation, problem)) gravest = &witness;
   };
   for (const Stretch& stretch : certificate.stretches) {
     if (!stretch.violations) continue;

@@ -7,6 +7,7 @@
 
 #include "problem/decimal.h"
 #include "reports/summary/bodies_statement.h"
+#include "reports/summary/time_statement.h"
 
 namespace taut {
 namespace {
@@ -57,9 +58,87 @@ ScopeItem collisions(const std::optional<BodiesText>& bodies) {
   return item;
 }
 
+/// What is assumed of forces of inertia.
+ScopeItem speed(const Problem& problem, bool is_in_time) {
+  if (is_in_time) {
+    return {"inertia", "no inertia but that of the weights",
+            "Nothing but the weights of the load has inertia: cables and drums have none, and the platform has it only "
+            "where a weight stands for it. A weight is a box that its mass fills evenly where one is stated, else a "
+            "point; its mass and its centre of gravity are anywhere within their tolerances.",
+            ""};
+  }
+  if (problem.time) {
+    return {"slow", "a platform at rest",
+            "The platform is at rest: neither inertia nor the limits of speed, acceleration and power were looked at.",
+            ""};
+  }
+  return {"slow", "slow motion",
+          "The motion is slow (quasi-static): inertia counts only as far as the set of loads contains it.", ""};
+}
+
+/// Who has to follow a move, and how well.
+ScopeItem drives(bool has_tolerances) {
+  return {
+      "control", "drives that keep to the commanded times, speeds and accelerations",
+      std::string("The drives follow the move in time, as its law states") +
+          (has_tolerances ? ", within the stated tolerances of place. A machine that deviates within the tolerances "
+                            "has the commanded velocities and accelerations."
+                          : ", exactly."),
+      ""};
+}
+
+/// "speed and power": what of winches no limit is stated of; empty if all are limited.
+std::string unlimited(const TimeText& time) {
+  std::vector<std::string> open;
+  const auto add = [&](const auto& limits, const char* what) {
+    if (!std::ranges::all_of(limits, [](const TimeText::Limit& limit) { return limit.has_value(); })) {
+      open.emplace_back(what);
+    }
+  };
+  add(time.winch_speed_m_s, "speed");
+  add(time.winch_acceleration_m_s2, "acceleration");
+  add(time.winch_power_W, "power");
+  return fmt::format("{}", fmt::join(open, " and "));
+}
+
+/// What of cables and winches is not covered.
+ScopeItem cables(const Problem& problem, bool is_in_time) {
+  if (!is_in_time) {
+    return {"cables", "sag, stretch, mass and wear of cables; pulleys; winches' speed, power, brakes",
+            "Sag, stretch, mass and wear of cables; pulleys; speed, power and brakes of winches.",
+            "Cables, pulleys, winches and brakes are fit for the move; sag and stretch do no harm."};
+  }
+  const std::string open = unlimited(problem.time.value());
+  const std::string brief = open.empty() ? "" : "; winches' " + open + ", of which no limit is stated for all of them";
+  const std::string text =
+      open.empty() ? "" : " Of winches also their " + open + ", as no limit is stated for all of them.";
+  return {"cables", "sag, stretch, mass and wear of cables; pulleys; drums and brakes of winches" + brief,
+          "Sag, stretch, mass and wear of cables; pulleys; inertia of drums, and brakes of winches." + text,
+          "Cables, pulleys, winches and brakes are fit for the move; sag and stretch do no harm."};
+}
+
+ScopeItem dynamics(bool is_in_time) {
+  if (!is_in_time) {
+    return {"dynamics", "vibration, wind, inertia and shock beyond the stated loads",
+            "Vibration, wind, inertia and impact beyond the set of loads.",
+            "Vibration, wind, inertia and impact stay within the stated loads."};
+  }
+  return {"dynamics", "vibration and shock; jerk, which is planned, not proved; wind beyond the stated loads",
+          "Vibration and impact; jerk, which is planned and not proved; wind beyond the set of loads.",
+          "Vibration, wind, jerk and impact stay within the stated loads."};
+}
+
 }  // namespace
 
-std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law) {
+std::vector<ScopeItem> assumed(const Certificate& certificate) {
+  return assumed(certificate.problem, certificate.path.interpolation, is_move(certificate));
+}
+
+std::vector<ScopeItem> not_covered(const Certificate& certificate) {
+  return not_covered(certificate.problem, is_move(certificate));
+}
+
+std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law, bool is_in_time) {
   const bool has_tolerances = problem.tolerances.has_value();
   const bool is_held = law == Interpolation::kCableLengths || (has_tolerances && problem.tolerances->cable_length_m);
   const std::string exactness = has_tolerances ? ", within the stated tolerances." : ", exactly.";
@@ -71,17 +150,17 @@ std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law) {
            "Cables are massless, straight and inextensible, and end in points: no sag, no stretch, no pulleys."),
       item("bodies", "a rigid base and a rigid platform",
            "Base and platform are rigid, and loads act at the stated points of the platform."),
-      item("slow", "slow motion",
-           "The motion is slow (quasi-static): inertia counts only as far as the set of loads contains it."),
+      speed(problem, is_in_time),
       has_tolerances ? item("machine", "the machine as stated, within the tolerances",
                             "Anchors, load and tracking differ from the stated numbers by no more than the tolerances. "
                             "The limits and the shape of the set of loads are exactly as stated.")
                      : item("machine", "the machine exactly as stated, without tolerances",
                             "Anchors, limits and loads are exactly the stated numbers."),
-      is_held ? item("control", "winches that hold the lengths that the path asks for",
-                     "The winches hold the lengths that the path asks for, between waypoints too" + exactness)
-              : item("control", "a controller that follows the path",
-                     "The controller follows the path, between waypoints too, as its law states" + exactness),
+      is_in_time ? drives(has_tolerances)
+      : is_held  ? item("control", "winches that hold the lengths that the path asks for",
+                        "The winches hold the lengths that the path asks for, between waypoints too" + exactness)
+                 : item("control", "a controller that follows the path",
+                        "The controller follows the path, between waypoints too, as its law states" + exactness),
       item("waypoints", "waypoints as the certificate states them",
            "Waypoints are the binary64 numbers of the certificate; a typed coordinate that is no such number was moved "
            "by at most half a unit in its last place."),
@@ -98,24 +177,20 @@ std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law) {
   return result;
 }
 
-std::vector<ScopeItem> not_covered(const Problem& problem) {
+std::vector<ScopeItem> not_covered(const Problem& problem, bool is_in_time) {
   const bool has_tolerances = problem.tolerances.has_value();
   const std::string errors = std::string("errors of manufacture, measurement and control") +
                              (has_tolerances ? " beyond the stated tolerances" : "");
-  return {
+  std::vector<ScopeItem> result = {
       collisions(problem.bodies),
-      {"cables", "sag, stretch, mass and wear of cables; pulleys; winches' speed, power, brakes",
-       "Sag, stretch, mass and wear of cables; pulleys; speed, power and brakes of winches.",
-       "Cables, pulleys, winches and brakes are fit for the move; sag and stretch do no harm."},
+      cables(problem, is_in_time),
       {"strength", "strength of anchors, fittings, rigging, structure, ground; factors of safety",
        "Strength of anchors, fittings, rigging, structure and ground; factors of safety that the limits do not "
        "contain.",
        "Anchors, fittings, rigging, structure and ground bear the greatest tensions, with the safety asked for."},
       {"loss", "loss of a cable, drive, sensor or power", "Failure or loss of a cable, drive, sensor or power.",
        "The loss of a cable, drive, sensor or power does no harm."},
-      {"dynamics", "vibration, wind, inertia and shock beyond the stated loads",
-       "Vibration, wind, inertia and impact beyond the set of loads.",
-       "Vibration, wind, inertia and impact stay within the stated loads."},
+      dynamics(is_in_time),
       {"errors", errors + "; whether the controller follows the path",
        "E" + errors.substr(1) + "; whether the controller follows the path.",
        has_tolerances ? "Errors of manufacture, measurement and control stay within the stated tolerances."
@@ -128,6 +203,14 @@ std::vector<ScopeItem> not_covered(const Problem& problem) {
        "reconstruction, the verdict is about the reconstruction.",
        "The stated numbers are those of the machine that is used."},
   };
+  if (is_in_time) {
+    const auto at = std::ranges::find(result, std::string_view("errors"), &ScopeItem::key);
+    result.insert(at + 1, {"drives", "errors of drives in speed and acceleration, and between the rows of a table",
+                           "Errors with which drives keep to speeds and accelerations; how they move between the rows "
+                           "of a table.",
+                           "The drives keep to the commanded speeds and accelerations, between rows of tables too."});
+  }
+  return result;
 }
 
 std::string in_full(const std::vector<ScopeItem>& items) {

@@ -18,9 +18,13 @@ struct ScopeItem {
 };
 
 /// What the machine must be like for the verdict to apply to it.
-[[nodiscard]] std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law);
+/// @param is_in_time  of a move in time, with inertia (time_statement.h); else of slow motion, or of standing still
+[[nodiscard]] std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law, bool is_in_time = false);
 /// What the verdict says nothing about.
-[[nodiscard]] std::vector<ScopeItem> not_covered(const Problem& problem);
+[[nodiscard]] std::vector<ScopeItem> not_covered(const Problem& problem, bool is_in_time = false);
+/// Both of a certificate.
+[[nodiscard]] std::vector<ScopeItem> assumed(const Certificate& certificate);
+[[nodiscard]] std::vector<ScopeItem> not_covered(const Certificate& certificate);
 
 /// The items' sentences, one after another.
 [[nodiscard]] std::string in_full(const std::vector<ScopeItem>& items);

@@ -17,6 +17,7 @@
 #include "reports/summary/load_statement.h"
 #include "reports/summary/numbers.h"
 #include "reports/summary/scope.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -128,6 +129,19 @@ std::string singular_details(const ReportContext& scene, const PathWitness& witn
       from, to);
 }
 
+/// By how much a limit of a rate is broken, and where.
+std::string rate_details(const ReportContext& scene, const PathWitness& witness) {
+  const Problem& problem = scene.certificate.problem;
+  const double beyond = 100 * severity_of(witness, problem);
+  constexpr double kVisible = 1e-9;
+  const std::string by = beyond > kVisible
+                             ? fmt::format("It is beyond the limit by at least {} % of it.", rounded_down(beyond, 2))
+                             : "It is at the limit or beyond it, and the limit itself is excluded.";
+  const double at = position(witness.at);
+  return fmt::format("{} Where: {}. The pose there, rounded: {}.", by, place_text(scene, at),
+                     pose_text(scene, scene.sampler.at(scene.certificate.path, at).pose));
+}
+
 /// By how much a limit is broken, where, and on which machine.
 std::string limit_details(const ReportContext& scene, const PathWitness& witness) {
   const double beyond = violation(witness);
@@ -188,6 +202,7 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
   const PathWitness& witness = scene.gravest->violation;
   std::vector<std::string> result = {witness.singular  ? singular_details(scene, witness)
                                      : witness.contact ? contact_details(scene, witness)
+                                     : witness.rate    ? rate_details(scene, witness)
                                                        : limit_details(scene, witness)};
   if (!witness.singular && scene.gravest->loads) {
     result.push_back(fmt::format("A load that breaks the limit there, with each part in its set by proof; rounded: {}.",
@@ -200,7 +215,8 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
   } else {
     result.emplace_back("There may be other violations: the proof ends at the first.");
   }
-  if (!witness.singular && !witness.contact && certificate.path.interpolation != Interpolation::kCableLengths) {
+  if (!witness.singular && !witness.contact && !witness.rate &&
+      certificate.path.interpolation != Interpolation::kCableLengths) {
     const PathSample sample = scene.sampler.at(certificate.path, position(witness.at));
     const std::string hint = reversed_load_hint(scene.sampler.model(), sample.statics);
     if (!hint.empty()) result.push_back(hint);
@@ -286,8 +302,9 @@ std::string limits_text(const RobotText& robot, const DisplayUnits& units) {
 
 std::string margins_text(const DecimalText& tension_N, const DecimalText& length_m, const DecimalText& wrench_scale,
                          const DisplayUnits& units, const std::optional<DecimalText>& clearance_m) {
-  return fmt::format("Proved margins: tension {}, length {}, wrench_scale {}{}.", quantity(tension_N, false, units),
-                     quantity(length_m, true, units), plain(wrench_scale),
+  return fmt::format("Proved margins: tension {}, length {}{}{}.", quantity(tension_N, false, units),
+                     quantity(length_m, true, units),
+                     wrench_scale.empty() ? "" : fmt::format(", wrench_scale {}", plain(wrench_scale)),
                      clearance_m ? fmt::format(", clearance {}", quantity(*clearance_m, true, units)) : "");
 }
 
@@ -336,6 +353,11 @@ std::string move_text(const ReportContext& scene) {
                   distance_text(scene.travel.distance_m(segments)), degrees(scene.travel.turned_rad(segments)));
   const auto begin = scene.travel.time_s(0);
   const auto end = scene.travel.time_s(segments);
+  if (is_move(scene.certificate)) {
+    const bool stops = path.interpolation == Interpolation::kStraight && path.segments() > 1;
+    return text + fmt::format(" in T = {}; it rests at {}.", seconds_text(path.timing->duration_s()),
+                              stops ? "every waypoint" : "the start and the end");
+  }
   if (begin && end) text += fmt::format(" in {:.6g} s", *end - *begin);
   return text + ".";
 }
@@ -400,6 +422,14 @@ std::string headline(const ReportContext& scene) {
   }
   if (scene.verdict == "proved") {
     const std::string clear = clear_bodies(certificate.problem.bodies, ", and ");
+    if (is_move(certificate)) {
+      return fmt::format(
+          "At every time of this move, with the inertia of the load, for every load in the stated set{}, no cable goes "
+          "slack, none exceeds its tension or length limit, no limit of speed, acceleration or power that is stated is "
+          "reached, {}no singular pose is met{}.",
+          certificate.problem.tolerances ? " and every machine within the stated tolerances" : "",
+          clear.empty() ? "and " : "", clear);
+    }
     return fmt::format(
         "Everywhere on this move, for every load in the stated set{}, no cable goes slack, none exceeds its tension or "
         "length limit, {}no singular pose is met{}.",
@@ -413,6 +443,11 @@ std::string headline(const ReportContext& scene) {
     return "Undecided: this move was neither proved nor refuted, so nothing is claimed about it.";
   }
   const PathWitness& witness = scene.gravest->violation;
+  if (witness.rate) {
+    return fmt::format("Refuted: on this move {}, {}.",
+                       rate_violation_text(witness, certificate.problem, scene.illustration.units),
+                       place_text(scene, position(witness.at)));
+  }
   const bool by_load = !witness.singular && !witness.contact && !is_length(witness);
   return fmt::format("Refuted: on this move {}{}.",
                      violation_text(witness, certificate.problem, scene.illustration.units),
@@ -458,6 +493,7 @@ std::string contact_text(const PathWitness& witness, const BodiesText& bodies, c
 std::string violation_text(const PathWitness& witness, const Problem& problem, const DisplayUnits& units) {
   if (witness.singular) return "the platform passes a singular pose, where the cables cannot balance every load";
   if (witness.contact) return contact_text(witness, problem.bodies.value(), units);
+  if (witness.rate) return rate_violation_text(witness, problem, units);
   const bool length = is_length(witness);
   const bool upper = is_upper(witness);
   const char* const deviating = witness.deviation ? ", on a machine that deviates within the tolerances," : "";
@@ -490,7 +526,7 @@ std::string value_text(const PathWitness& witness, const DisplayUnits& units) {
 }
 
 bool is_all_but_singular(const PathWitness& witness, const RobotText& robot) {
-  if (witness.singular || witness.contact || is_length(witness)) return false;
+  if (witness.singular || witness.contact || witness.rate || is_length(witness)) return false;
   double greatest = 0;
   for (const Limits& limits : robot.tension_N) greatest = std::max(greatest, nearest_double(limits.upper));
   return std::abs(nearest_double(proved_value(witness))) > kSingularTension * greatest;
@@ -540,7 +576,7 @@ std::string proof_text(const ReportContext& scene) {
 }
 
 std::string load_sentences(const Certificate& certificate) {
-  LoadStatement load = load_statement(certificate.problem.load);
+  LoadStatement load = stated_load(certificate);
   if (const auto items = stated_items(certificate)) load.around_items = std::make_shared<const LoadStatement>(*items);
   return fmt::format("{}", fmt::join(report_lines(load), " "));
 }
@@ -550,15 +586,16 @@ std::string load_sentences(const Certificate& certificate) {
 std::vector<Statement> statements(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   const Problem& problem = certificate.problem;
-  std::vector<Statement> result = {
-      {"motion", "Motion", motion_text(scene)},
-      {"load", "Loads", load_sentences(certificate)},
-      {"limits", "Limits", limits_text(problem.robot, scene.illustration.units)},
-      {"tolerances", "Tolerances", tolerances_text(problem.tolerances, scene.illustration.units)},
-      {"assumptions", "Assumptions", in_full(assumed(problem, certificate.path.interpolation))},
-      {"not_covered", "Not covered", in_full(not_covered(problem))},
-      {"proof", "Proof", proof_text(scene)},
-      {"recheck", "Re-check", recheck_text(scene.recheck)}};
+  const DisplayUnits& units = scene.illustration.units;
+  const std::string in_time = is_move(certificate) ? " " + time_limits_text(*problem.time, units) : "";
+  std::vector<Statement> result = {{"motion", "Motion", motion_text(scene)},
+                                   {"load", "Loads", load_sentences(certificate)},
+                                   {"limits", "Limits", limits_text(problem.robot, units) + in_time},
+                                   {"tolerances", "Tolerances", tolerances_text(problem.tolerances, units)},
+                                   {"assumptions", "Assumptions", in_full(assumed(certificate))},
+                                   {"not_covered", "Not covered", in_full(not_covered(certificate))},
+                                   {"proof", "Proof", proof_text(scene)},
+                                   {"recheck", "Re-check", recheck_text(scene.recheck)}};
   if (problem.bodies) result.insert(result.begin() + 3, {"clearance", "Clearance", bodies_text(problem)});
   return result;
 }
@@ -571,6 +608,9 @@ std::string use_caption(const ReportContext& scene, CableUse::Source source) {
       if (is_implied(scene.certificate)) return "Cables at those poses of the stated tubes at which limits are proved";
       return "Cables over those parts of the move that are proved";
     case CableUse::Source::kProved:
+      if (is_move(scene.certificate)) {
+        return "Cables over the whole move, with inertia, proved: no load of the set asks for more, or less";
+      }
       return "Cables over the whole move, proved: no load of the set asks for more, or less";
   }
   return "";

@@ -26,7 +26,7 @@ namespace taut {
 [[nodiscard]] std::string violation_text(const PathWitness& witness, const Problem& problem, const DisplayUnits& units);
 
 /// "0.0499 N": the value of a witness that is next to its limit, in as few digits as show it beyond the limit, rounded
-/// towards the limit. @pre neither singular nor of bodies
+/// towards the limit. @pre not singular, nor of bodies or a rate
 [[nodiscard]] std::string value_text(const PathWitness& witness, const DisplayUnits& units);
 
 /// Whether a tension is so far beyond the limits that the pose is singular but for rounding.
@@ -53,11 +53,12 @@ struct Statement {
 /// The verdict's scope: motion, loads, limits, tolerances, assumptions, what is not covered, versions, and the check.
 [[nodiscard]] std::vector<Statement> statements(const ReportContext& scene);
 
-/// "Every tension above 0.05 N and below 0.5 N; every cable length …": exactly.
+/// "Every tension above 0.05 N and below 0.5 N; every cable length …": exactly. Limits in time are time_statement.h's.
 [[nodiscard]] std::string limits_text(const RobotText& robot, const DisplayUnits& units);
 /// "Up to, in any direction and all at once: base anchors 0.1 mm and …": exactly.
 [[nodiscard]] std::string tolerances_text(const std::optional<TolerancesText>& tolerances, const DisplayUnits& units);
 /// "Proved margins: tension 3.4 N, length 2.4 m, wrench_scale 5.3, clearance 0.2 m.": exactly, in these units.
+/// @param wrench_scale  empty: not claimed, as of moves
 [[nodiscard]] std::string margins_text(const DecimalText& tension_N, const DecimalText& length_m,
                                        const DecimalText& wrench_scale, const DisplayUnits& units,
                                        const std::optional<DecimalText>& clearance_m = {});

@@ -11,6 +11,7 @@
 #include "reports/summary/bodies_statement.h"
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/numbers.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -107,10 +108,10 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
       headline(taut::headline(scene)),
       details(verdict_details(scene)),
       move(move_text(scene)),
-      assumed(taut::assumed(scene.certificate.problem, scene.certificate.path.interpolation)),
-      not_covered(taut::not_covered(scene.certificate.problem)),
+      assumed(taut::assumed(scene.certificate)),
+      not_covered(taut::not_covered(scene.certificate)),
       statements(taut::statements(scene)),
-      load(load_statement(scene.certificate.problem.load)),
+      load(stated_load(scene.certificate)),
       use(cable_use(scene)),
       units(scene.illustration.units),
       recheck(scene.recheck),

@@ -38,6 +38,8 @@ Travel::Travel(const Sampler& sampler, const Path& path) {
     turned_rad_.push_back(last ? turned_rad_.back() + pose.q.angularDistance(last->q) : 0);
     last = pose;
   }
+  if (segments > 0) timing_ = path.timing;
+  segments_ = static_cast<double>(segments);
   if (path.interpolation == Interpolation::kCubicBSpline) return;
   for (const std::string& time : path.times) times_s_.push_back(nearest_double(time));
 }
@@ -47,6 +49,8 @@ double Travel::at(const std::vector<double>& values, double position) const {
 }
 
 std::optional<double> Travel::time_s(double position) const {
+  if (timing_ && position >= segments_) return timing_->duration_s();
+  if (timing_) return position > 0 ? TimedSampler::time_of(*timing_, position) : 0;
   if (times_s_.empty()) return std::nullopt;
   return interpolated(times_s_, position);
 }

@@ -18,8 +18,8 @@ class Travel {
   /// The travel from the start to a position, which is counted in segments (PathSample::position).
   [[nodiscard]] double distance_m(double position) const { return at(distance_m_, position); }
   [[nodiscard]] double turned_rad(double position) const { return at(turned_rad_, position); }
-  /// The time at a position, from the path's times, uniform between waypoints. Nothing if the path has none, or is a
-  /// spline, which does not pass through its control points.
+  /// The time at a position: of a move when it first gets there; else from the path's times, uniform between waypoints.
+  /// Nothing if the path has none, or is a spline, which does not pass through its control points.
   [[nodiscard]] std::optional<double> time_s(double position) const;
 
  private:
@@ -27,7 +27,9 @@ class Travel {
 
   std::size_t pieces_ = 1;  ///< a segment
   std::vector<double> distance_m_, turned_rad_;
-  std::vector<double> times_s_;  ///< of the waypoints
+  std::vector<double> times_s_;    ///< of the waypoints
+  std::optional<TimeLaw> timing_;  ///< of a move
+  double segments_ = 0;
 };
 
 }  // namespace taut

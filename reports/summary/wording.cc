@@ -14,6 +14,7 @@
 #include "problem/expression.h"
 #include "reports/summary/angles.h"
 #include "reports/summary/numbers.h"
+#include "reports/summary/time_statement.h"
 
 namespace taut {
 
@@ -269,10 +270,20 @@ double segment_of(const ReportContext& scene, double position) {
   return std::floor(std::clamp(position, 0.0, segments - 1));
 }
 
+/// "4.2 s after the start (segment 3, s = 0.2)"
+std::string place_in_time(const ReportContext& scene, double position) {
+  const double segment = segment_of(scene, position);
+  const std::string in = fmt::format("(segment {}, s = {:.4g})", segment, position - segment);
+  if (position <= 0) return "at the start of the move " + in;
+  if (position >= static_cast<double>(scene.certificate.path.segments())) return "at the end of the move " + in;
+  return fmt::format("{} after the start {}", seconds_text(scene.travel.time_s(position).value_or(0)), in);
+}
+
 }  // namespace
 
 std::string place_text(const ReportContext& scene, double position) {
   if (scene.certificate.path.segments() == 0) return kOnlyPose;
+  if (is_move(scene.certificate)) return place_in_time(scene, position);
   const std::string in = fmt::format("segment {}{}", segment_of(scene, position), time_text(scene, position));
   const std::string travel = travel_text(scene, position);
   return travel.empty() ? "in " + in : fmt::format("{} ({})", travel, in);

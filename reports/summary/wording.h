@@ -69,7 +69,7 @@ namespace taut {
 /// "4.2 m", "12 mm": rounded.
 [[nodiscard]] std::string distance_text(double metres);
 /// "4.2 m into the move (segment 17)", or the angle turned if the platform's origin does not move; with the time, if
-/// the path has times.
+/// the path has times. Of a move in time "4.2 s after the start (segment 3, s = 0.2)".
 /// `position` counts segments: k + s is the point s of segment k.
 [[nodiscard]] std::string place_text(const ReportContext& scene, double position);
 /// "segment 17 at s = 0.525, 4.2 m into the move, t = 3 s"; of two places that differ in six digits, "between segment 2

@@ -14,6 +14,9 @@
 //   bands       proved ranges, or null: from, to (positions), tension and length: six times lower and upper
 //   margins     proved, for groups of consecutive segments: from, to, tension_N, length_m, wrench_scale
 //               where there are bodies also clearance_m: how much farther than its clearance every pair is apart
+//               wrench_scale is missing of a move in time, as is what samples have of it
+//   winches     of a move in time, else null: winch_speed, winch_acceleration and, where it is limited, winch_power;
+//               each limits (six, or null where none is stated) and values (six columns, as samples)
 //   bodies      null, or shapes: name, is_obstacle (in the world; else on the platform, in its axes), and points and
 //               radius (all within it of their convex hull), or plane (four corners of what is shown of a half-space),
 //               or corners and triangles; box: corners of a box around it. cable_radius, free_ends (six pairs: at the

@@ -8,7 +8,9 @@ import { Cursor } from "./cursor.js";
 import { isDrawable, readData } from "./data.js";
 import { planeFigure } from "./plane.js";
 import { Player } from "./player.js";
-import { clearancePanels, connect, legend, lengthPanels, marginPanels, posePanels, tensionPanels } from "./plots.js";
+import {
+  clearancePanels, connect, legend, lengthPanels, marginPanels, posePanels, tensionPanels, winchPanels,
+} from "./plots.js";
 import { watchScrolling } from "./scrolling.js";
 import style from "./style.css";
 import { toleranceFigure } from "./tolerances.js";
@@ -215,6 +217,8 @@ const jobs = [
   () => performance.mark("interactive"), // of what is read first; the rest answers as it is drawn
   () => panelsAt("lengths", lengthPanels,
     [...(enclosed ? [enclosure] : []), ["calm-line", "length (sampled)"], ...limitKeys]),
+  ...Object.keys(data.winches ?? {}).map((kind) => () =>
+    panelsAt(kind, (all) => winchPanels(all, kind), [["calm-line", "sampled"], ...limitKeys])),
   () => data.bodies && panelsAt("clearances", clearancePanels, [
     ...(data.margins.from.length > 0 ? [["curve", "proved lower bound of each segment"]] : []),
     ["dashed", "sampled, of all pairs"], ["calm-line", "distance of a pair (sampled)"],

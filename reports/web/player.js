@@ -190,11 +190,16 @@ export class Player {
     this.onPlaying?.(true);
     if (this.share >= 1) this.goTo(0);
     let last = performance.now();
+    // The clock runs on while the platform stands still, unless somebody points at another place.
+    let share = this.share;
+    let position = this.cursor.position;
     const frame = (now) => {
       if (!this.playing) return;
-      const share = this.share + (now - last) / 1000 / Number(this.duration.value);
+      if (this.cursor.position !== position) share = this.share;
+      share += (now - last) / 1000 / Number(this.duration.value);
       last = now;
       this.goTo(Math.min(share, 1));
+      position = this.cursor.position;
       if (share >= 1) this.stop();
       else requestAnimationFrame(frame);
     };

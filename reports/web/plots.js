@@ -183,12 +183,13 @@ function cablePanel(data, cable) {
   const nearness = uses ? uses.nearness[index] : "calm";
   const colour = `var(--${nearness})`;
   const violated = data.witness && data.witness.cable === index + 1 && data.witness.kind.startsWith(name);
+  const noun = { tension: "Tension", length: "Length" }[name];
   return new Panel({
     title: `Cable ${index + 1}`,
     keys: NEARNESS[nearness] ? element("span", { class: `nearness ${nearness}` }, NEARNESS[nearness]) : undefined,
     rest: range,
     description:
-      `${name === "tension" ? "Tension" : "Length"} of cable ${index + 1} along the move: ` +
+      `${noun} of cable ${index + 1} along the move: ` +
       `${range ? `${range}, ` : ""}limits ${text(bottom)} and ${text(top)} ${unit}.` +
       (violated ? " It is proved to be out of its limits." : ""),
     domain,
@@ -269,6 +270,56 @@ export function lengthPanels(data) {
   });
 }
 
+const RATES = {
+  winch_speed: { title: "speed", label: "speed", unit: (length) => `${length}/s`, isSigned: true },
+  winch_acceleration: { title: "acceleration", label: "acceleration", unit: (length) => `${length}/s²`, isSigned: true },
+  winch_power: { title: "power", label: "power", unit: () => "kW", factor: 1e-3, isSigned: false },
+};
+
+/// What the six winches do during a move in time, on one scale: samples, and limits where they are stated.
+export function winchPanels(data, kind) {
+  const rate = RATES[kind];
+  const { limits, values } = data.winches[kind];
+  const factor = rate.factor ?? data.lengthUnit.factor;
+  const unit = rate.unit(data.lengthUnit.name);
+  const scaled = values.map((column) => column.map((x) => (x === null ? NaN : x * factor)));
+  const stated = limits.map((limit) => (limit === null ? undefined : limit * factor));
+  const bounds = stated.filter((limit) => limit !== undefined);
+  const range = extent(...scaled, bounds, rate.isSigned ? bounds.map((x) => -x) : [0]);
+  return scaled.map((column, index) =>
+    winchPanel(data, { index, rate, unit, column, limit: stated[index], domain: paddedDomain(range) }));
+}
+
+function winchPanel(data, { index, rate, unit, column, limit, domain }) {
+  const range = extent(column) ?? [0, 0];
+  const size = Math.max(Math.abs(range[0]), Math.abs(range[1]));
+  const isKept = limit === undefined || size < limit;
+  const shown = isKept ? atLeast(size) : atMost(size);
+  const limits = limit === undefined ? undefined : [rate.isSigned ? -limit : domain[0], limit];
+  const decimals = decimalsFor(domain[1] - domain[0]);
+  const colour = isKept ? "var(--calm)" : "var(--out)";
+  return new Panel({
+    title: `Cable ${index + 1}`,
+    keys: isKept ? undefined : element("span", { class: "nearness out" }, NEARNESS.out),
+    rest: `sampled, at most ${shown} ${unit}`,
+    description: `Winch of cable ${index + 1}, ${rate.title} during the move: sampled, at most ${shown} ${unit}` +
+      `${limit === undefined ? "" : `; limit ${text(limit)} ${unit}`}.`,
+    domain,
+    label: `${rate.label} [${unit}]`,
+    draw: (axis, across) => {
+      const { behind, before } = marks(data, axis, domain);
+      const rows = axis.values.map((x, k) => ({ x, y: column[k] }));
+      return [
+        ...(limits ? beyondLimits(limits, domain, across, (d) => (d === domain[0] ? "" : text(d))) : []),
+        behind,
+        Plot.lineY(rows, { x: "x", y: "y", stroke: colour, strokeWidth: 1.8, clip: true }),
+        before,
+      ];
+    },
+    says: (where) => `here ${fixed(between(column, where), decimals)} ${unit}`,
+  });
+}
+
 /// The least distance of any cable from its nearer limit, from samples.
 function leastReserve(data, low, high, limits) {
   return data.samples.position.map((_, k) => {
@@ -293,7 +344,9 @@ export function marginPanels(data) {
   return [
     marginPanel(data, "Tension", forceUnit.name, scaled(margins.tension_N, forceUnit), tension, 0),
     marginPanel(data, "Length", lengthUnit.name, scaled(margins.length_m, lengthUnit), length, 0),
-    marginPanel(data, "Load: wrench_scale", "×", margins.wrench_scale, samples.wrench_scale.map(number), 1),
+    // Of a move in time it is not claimed.
+    ...(margins.wrench_scale
+      ? [marginPanel(data, "Load: wrench_scale", "×", margins.wrench_scale, samples.wrench_scale.map(number), 1)] : []),
   ];
 }
 

@@ -169,6 +169,47 @@ inline ReportContext scene(const nlohmann::json& certificate) {
           {is_claim ? Recheck::Result::kConfirmed : Recheck::Result::kNoClaim, "taut-check 9.9", "so <it> is"}};
 }
 
+/// The proved path as a move in time, of a load with two weights and no gravity, that rests at each waypoint.
+inline Certificate timed(double step_s = 0.5) {
+  Certificate certificate = read_certificate(proved());
+  Problem& problem = certificate.problem;
+  problem.load.items = {
+      {"payload", Weight{"0.02", "0.022", {"0", "0", "-0.02"}, "0.001", RationalVector{"0.05", "1/20", "0.04"}}},
+      {"probe", Weight{"0.01", "0.01", {"0.03", "0", "0"}, "0"}}};
+  TimeText& time = problem.time.emplace();
+  time.winch_speed_m_s.fill("0.1");
+  time.winch_power_W[2] = "2";
+  time.load_acceleration_m_s2 = "0.25";
+  time.load_angular_speed_rad_s = "(30)*pi/180";
+  certificate.path.timing = TimeLaw{step_s, {0, 0, 0, 0.25, 0.75, 1, 1, 1, 1.25, 1.75, 2, 2, 2}};
+  // Inertia takes some of the margins of tension, so that those of the path alone would be false.
+  certificate.margins->wrench_scale = "1";
+  certificate.margins->tension_N = "1e-3";
+  for (CertificateSegment& segment : certificate.segments) {
+    segment.margins->wrench_scale = "1";
+    segment.margins->tension_N = "1e-3";
+  }
+  return certificate;
+}
+inline ReportContext scene(const Certificate& certificate) {
+  const bool is_claim = certificate.verdict != Verdict::kUndecided;
+  return {certificate,
+          {is_claim ? Recheck::Result::kConfirmed : Recheck::Result::kNoClaim, "taut-check 9.9", "so <it> is"}};
+}
+/// The same refuted, as a winch would be too fast.
+inline Certificate too_fast(RateId rate = {RateKind::kWinchSpeed, 2}) {
+  Certificate certificate = timed();
+  certificate.verdict = Verdict::kRefuted;
+  certificate.segments.clear();
+  certificate.margins.reset();
+  Witness& witness = certificate.witness.emplace();
+  witness.violation.at = {true, 1, Dyadic{1, 1}};
+  witness.violation.rate = rate;
+  witness.violation.value_lower = "123.4567";
+  witness.violation.value_upper = "123.4568";
+  return certificate;
+}
+
 /// The same if the checker had not come to an end.
 inline ReportContext unchecked(const nlohmann::json& certificate) {
   return {read_certificate(certificate), {Recheck::Result::kUnchecked, "taut-check 9.9", "so <it> is"}};

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A move in binary64: what platform, winches and cables do at a time. Nothing here is proved.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kinematics/moving_load.h"
+#include "kinematics/path_rates.h"
+#include "kinematics/statics.h"
+#include "kinematics/time_law.h"
+#include "kinematics/time_limits.h"
+
+namespace taut {
+
+/// The machine as stated at one time of a move.
+struct TimedSample {
+  double time_s = 0;
+  LawPoint place;  ///< σ, σ' and σ''; σ counts segments
+  Rates<double> rates;
+  WinchRates<double> winches;                                    ///< L̇ [m/s] and L̈ [m/s²]
+  double load_speed = 0, load_acceleration = 0;                  ///< of the load point [m/s, m/s²]
+  double load_angular_speed = 0, load_angular_acceleration = 0;  ///< of the platform [rad/s, rad/s²]
+  Vector6<double> inertial_wrench;                               ///< w_in about P_m, axes of W [N, N m]
+  Statics<double> statics;                                       ///< with tensions that balance w − w_in
+  std::array<double, kCables> winch_power{};                     ///< |greatest tension over K| · |L̇| [W]
+
+  /// The magnitude that a limit of this kind is about.
+  [[nodiscard]] double size(RateId id) const;
+};
+
+/// Whether a path of a problem is a move in time that can be sampled; else it is passed slowly, or a pose at rest.
+[[nodiscard]] bool is_in_time(const Problem& problem, const Path& path);
+
+class TimedSampler {
+ public:
+  /// @throws InputError if the problem has no model in doubles. @pre the space has no constraints
+  explicit TimedSampler(const Problem& problem);
+
+  /// @param time_s  what is beyond the move is taken for the nearest end
+  /// @pre is_in_time()
+  [[nodiscard]] TimedSample at_time(const Path& path, double time_s) const;
+  /// The same at a place that counts segments. While a move stands still there, all that is sampled is the same.
+  [[nodiscard]] TimedSample at_place(const Path& path, double place) const;
+
+  /// The first time at which a move has reached a place that counts segments, by halving [s].
+  [[nodiscard]] static double time_of(const TimeLaw& law, double place);
+
+ private:
+  Model<double> model_;
+  PathRatesModel<double> rates_;
+  std::vector<MovingBody<double>> bodies_;
+};
+
+/// A limit that a problem states of a move.
+struct RateLimit {
+  RateId id;
+  ExpressionText text;  ///< SI
+  double value = 0;     ///< rounded
+};
+/// All of them, in the order of RateKind, and for winches of cables.
+[[nodiscard]] std::vector<RateLimit> rate_limits(const TimeText& time);
+/// The expression of one of them. @pre it is stated
+[[nodiscard]] const ExpressionText& limit_of(const TimeText& time, RateId id);
+
+}  // namespace taut
