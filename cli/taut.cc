@@ -29,6 +29,7 @@
 #include "cli/formal_command.h"
 #include "cli/init_command.h"
 #include "cli/map_command.h"
+#include "cli/monitor_command.h"
 #include "cli/output.h"
 #include "cli/plan_command.h"
 #include "cli/regress_command.h"
@@ -153,6 +154,9 @@ std::vector<Command> add_commands(CLI::App& app) {
   commands.push_back(add_command<MapArguments>(app, "map",
                                                "prove which poses are feasible, of two or three free coordinates",
                                                add_map_options, proving(ErrorCode::kCase, run_map)));
+  commands.push_back(add_command<MonitorArguments>(app, "monitor",
+                                                   "hold measurements to a proved move while it is executed",
+                                                   add_monitor_options, proving(ErrorCode::kCertificate, run_monitor)));
   commands.push_back(add_command<WrapArguments>(app, "wrap", "write a closed mesh around one that is not closed",
                                                 add_wrap_options, with_error_code(ErrorCode::kCase, run_wrap)));
   commands.push_back(add_command<FormalArguments>(app, "formal",

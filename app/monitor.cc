@@ -1,0 +1,526 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/monitor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/input_error.h"
+#include "kinematics/time_law.h"
+#include "problem/decimal.h"
+#include "problem/expression.h"
+#include "reports/summary/numbers.h"
+#include "reports/summary/timed_sampler.h"
+
+namespace taut {
+namespace {
+
+constexpr std::size_t kFewestPieces = 512;  ///< into which the path is halved at least, so that ranges are of one place
+constexpr std::size_t kManyBoxes = 20'000;  ///< these are not halved
+constexpr std::size_t kCellsNearby = 256;   ///< that are looked at on either side before all of the path is
+constexpr double kRounding_s = 1e-9;        ///< far more than times are rounded by
+
+/// What the theorem's margin leaves of the limits, rounded outward.
+std::array<Range, kCables> ranges_by_margin(const RobotText& robot, const Margins& margins) {
+  const Rational margin = Decimal::parse(margins.tension_N).rational();
+  std::array<Range, kCables> result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    result[i] = {below(Rational(Decimal::parse(robot.tension_N[i].lower).rational() + margin)),
+                 above(Rational(Decimal::parse(robot.tension_N[i].upper).rational() - margin))};
+  }
+  return result;
+}
+
+std::vector<DyadicBox> halved(const DyadicBox& box, int times) {
+  if (times == 0) return {box};
+  std::vector<DyadicBox> result = halved(box.left(), times - 1);
+  std::ranges::copy(halved(box.right(), times - 1), std::back_inserter(result));
+  return result;
+}
+
+std::vector<std::vector<DyadicBox>> halved_boxes(const std::vector<std::vector<DyadicBox>>& boxes) {
+  std::size_t count = 0;
+  for (const auto& segment : boxes) count += segment.size();
+  int times = 0;
+  for (; count > 0 && count << static_cast<unsigned>(times) < kFewestPieces;) ++times;
+  std::vector<std::vector<DyadicBox>> result;
+  for (const auto& segment : boxes) {
+    std::vector<DyadicBox>& pieces = result.emplace_back();
+    for (const DyadicBox& box : segment) std::ranges::copy(halved(box, times), std::back_inserter(pieces));
+  }
+  return result;
+}
+
+/// Enclosures of tensions along the whole path; where there is none, what the margin says.
+std::vector<PlaceTable::Piece> pieces_of(const ProvedPath& proved) {
+  const std::vector<std::vector<DyadicBox>> boxes = halved_boxes(proved.boxes);
+  std::size_t count = 0;
+  for (const auto& segment : boxes) count += segment.size();
+  RangeOptions options;
+  if (count > kManyBoxes) options.most_halvings = 0;
+  const PathRanges ranges = path_ranges(Prover(proved.problem), proved.path, boxes, options);
+  std::vector<PlaceTable::Piece> result;
+  for (std::size_t k = 0; k < proved.path.segments(); ++k) {
+    const auto from = static_cast<double>(k);
+    const std::array<Range, kCables> by_margin = ranges_by_margin(proved.problem.robot, proved.margins[k]);
+    double reached = 0;
+    const auto fill_to = [&](double s) {
+      if (s > reached) result.push_back({{from + reached, from + s}, by_margin});
+    };
+    for (const BoxRanges& piece : k < ranges.segments.size() ? ranges.segments[k] : std::vector<BoxRanges>()) {
+      const double lower = piece.box.lower().approx(), upper = piece.box.upper().approx();
+      if (lower < reached) continue;
+      fill_to(lower);
+      std::array<Range, kCables> tension;
+      for (std::size_t i = 0; i < kCables; ++i) {
+        tension[i] = {std::max(piece.tension[i].lower, by_margin[i].lower),
+                      std::min(piece.tension[i].upper, by_margin[i].upper)};
+      }
+      result.push_back({{from + lower, from + upper}, tension});
+      reached = upper;
+    }
+    fill_to(1);
+  }
+  return result;
+}
+
+double norm_of(const std::array<DecimalText, 3>& text) {
+  return Vector3<double>(nearest_double(text[0]), nearest_double(text[1]), nearest_double(text[2])).norm();
+}
+
+/// Bodies say nothing of tensions.
+ProvedPath without_bodies(ProvedPath proved) {
+  proved.problem.bodies.reset();
+  return proved;
+}
+
+/// How far the length of cable i of a real machine may be from the commanded one [m].
+double length_tolerance(const Problem& problem, const ToleranceNumbers& tolerances, std::size_t i) {
+  const double ends = tolerances.platform_anchor[i] + tolerances.base_anchor[i];
+  const double tracking = tolerances.position + tolerances.orientation * (norm_of(problem.robot.platform_anchors_m[i]) +
+                                                                          tolerances.platform_anchor[i]);
+  return tolerances.cable_length ? (*tolerances.cable_length)[i] + tracking : ends + tracking;
+}
+
+double chord(double angle) { return 2 * std::sin(std::min(angle, 3.14159265358979) / 4); }
+
+}  // namespace
+
+ProvedPath proved_path(const Certificate& certificate) {
+  if (certificate.verdict != Verdict::kProved) {
+    throw InputError(
+        fmt::format("got the verdict '{}', expected a path that is proved", taut::name(certificate.verdict)));
+  }
+  ProvedPath result{certificate.problem, certificate.path, {}, {}};
+  for (std::size_t k = 0; k < certificate.path.segments(); ++k) {
+    const bool is_there = k < certificate.segments.size();
+    result.boxes.push_back(is_there ? dyadic_boxes(certificate.segments[k].boxes) : std::vector<DyadicBox>());
+    const std::optional<Margins>& margins =
+        is_there && certificate.segments[k].margins ? certificate.segments[k].margins : certificate.margins;
+    if (!margins) throw InputError(fmt::format("segments[{}]: got no margins, expected those of a proof", k));
+    result.margins.push_back(*margins);
+  }
+  return result;
+}
+
+const char* name(AlarmKind kind) {
+  switch (kind) {
+    case AlarmKind::kLength: return "length";
+    case AlarmKind::kPosition: return "position";
+    case AlarmKind::kOrientation: return "orientation";
+    case AlarmKind::kAhead: return "ahead of the law";
+    case AlarmKind::kBackwards: return "backwards";
+    case AlarmKind::kWinchSpeed: return "winch speed";
+    case AlarmKind::kTension: return "tension";
+    case AlarmKind::kLoad: break;
+  }
+  return "load";
+}
+
+namespace {
+
+PlaceTable make_table(const ProvedPath& proved, const PoseSampler& sampler,
+                      const std::array<double, kCables>& length_allowed, double position, double turn) {
+  return {sampler, proved.path, pieces_of(proved), {length_allowed, position, chord(turn)}};
+}
+
+std::array<double, kCables> allowed_of(const Problem& problem, const GaugeErrors& errors) {
+  std::array<double, kCables> result;
+  const ToleranceNumbers tolerances = tolerance_numbers(problem);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    result[i] = length_tolerance(problem, tolerances, i) + errors.length_m;
+  }
+  return result;
+}
+
+}  // namespace
+
+Monitor::Monitor(ProvedPath proved, const GaugeErrors& errors)
+    : proved_(without_bodies(std::move(proved))),
+      errors_(errors),
+      sampler_(proved_.problem),
+      tolerances_(tolerance_numbers(proved_.problem)),
+      length_allowed_(allowed_of(proved_.problem, errors)),
+      table_(make_table(proved_, sampler_, length_allowed_, position_allowed(), orientation_allowed())),
+      load_(proved_.problem) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const double ends = tolerances_.platform_anchor[i] + tolerances_.base_anchor[i];
+    pose_allowed_[i] = length_tolerance(proved_.problem, tolerances_, i) + ends + errors_.position_m +
+                       errors_.orientation_rad * norm_of(proved_.problem.robot.platform_anchors_m[i]);
+    if (!is_move() || !proved_.problem.time) continue;
+    const TimeText::Limit& limit = proved_.problem.time->winch_speed_m_s[i];
+    if (limit) winch_speed_[i] = evaluate_constant<double>(*limit);
+  }
+}
+
+PlaceTarget Monitor::target_of(const MeasuredRow& row) const {
+  PlaceTarget target;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    if (!row.length_m[i]) continue;
+    target.mask |= PlaceTarget::bit(i);
+    target.length[i] = *row.length_m[i];
+    target.length_allowed[i] = length_allowed_[i];
+  }
+  if (!row.pose) return target;
+  RigidPose pose = *row.pose;
+  pose.q.normalize();
+  if (is_length_controlled()) {
+    // The tolerances say nothing of where the platform is, but of which lengths it has there.
+    const std::array<double, kCables> lengths = cable_lengths(sampler_.model(), pose);
+    for (std::size_t i = 0; i < kCables; ++i) {
+      target.mask |= PlaceTarget::bit(kCables + i);
+      target.length[kCables + i] = lengths[i];
+      target.length_allowed[kCables + i] = pose_allowed_[i];
+    }
+    return target;
+  }
+  target.mask |= PlaceTarget::bit(PlaceTarget::kPosition) | PlaceTarget::bit(PlaceTarget::kTurn);
+  target.position = pose.p;
+  target.position_allowed = position_allowed();
+  target.turn = pose.q.coeffs();
+  target.turn_allowed = chord(orientation_allowed());
+  return target;
+}
+
+double Monitor::first_time(double s) const { return s <= 0 ? 0 : TimedSampler::time_of(*proved_.path.timing, s); }
+
+double Monitor::last_time(double s) const {
+  const TimeLaw& law = *proved_.path.timing;
+  double from = 0, to = law.duration_s();
+  constexpr int kHalvings = 60;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (from + to);
+    (at_time(law, middle).s <= s ? from : to) = middle;
+  }
+  return to;
+}
+
+Monitor::Places Monitor::all_places(const PlaceTarget& target) const {
+  return table_.places(target, target.mask, 0, table_.cells());
+}
+
+Monitor::Places Monitor::reachable(double time_s) const {
+  const double passed = time_s - *last_time_s_ + 2 * errors_.time_s + kRounding_s;
+  const auto end = static_cast<double>(proved_.path.segments());
+  Places result;
+  for (const PlaceInterval& from : places_) {
+    const double time = last_time(from.upper) + passed;
+    const double to = time >= proved_.path.timing->duration_s() ? end : at_time(*proved_.path.timing, time).s;
+    if (!result.empty() && result.back().upper >= from.lower) {
+      result.back().upper = std::max(result.back().upper, to);
+    } else {
+      result.push_back({from.lower, std::max(from.upper, to)});
+    }
+  }
+  return result;
+}
+
+Monitor::Places Monitor::places_among(const PlaceTarget& target, const Places& among) const {
+  constexpr double kShareOfRounding = 1e-12;  // of a place
+  Places result;
+  for (const PlaceInterval& part : among) {
+    const std::size_t first = table_.cell_at(part.lower), end = table_.cell_at(part.upper) + 1;
+    for (PlaceInterval found : table_.places(target, target.mask, first, end)) {
+      found.lower = std::max(found.lower, part.lower * (1 - kShareOfRounding));
+      found.upper = std::min(found.upper, part.upper * (1 + kShareOfRounding));
+      if (found.lower <= found.upper) result.push_back(found);
+    }
+  }
+  return result;
+}
+
+const PlaceInterval& Monitor::nearest(const Places& places) const {
+  return *std::ranges::min_element(places, {}, [&](const PlaceInterval& part) {
+    return std::max({0.0, part.lower - last_place_, last_place_ - part.upper});
+  });
+}
+
+Alarm Monitor::off_path_alarm(const PlaceTarget& target, std::size_t check, double s) const {
+  const PlaceTable::Node here = table_.at(s);
+  Alarm alarm;
+  if (check < PlaceTarget::kLengths) {
+    alarm.cable = static_cast<int>(check % kCables);
+    const double length = here.length[check % kCables], allowed = target.length_allowed[check];
+    alarm.measured = target.length[check];
+    alarm.lower = length - allowed;
+    alarm.upper = length + allowed;
+  } else if (check == PlaceTarget::kPosition) {
+    alarm.kind = AlarmKind::kPosition;
+    alarm.measured = (target.position - here.pose.p).norm();
+    alarm.upper = position_allowed();
+  } else {
+    alarm.kind = AlarmKind::kOrientation;
+    alarm.measured = Eigen::Quaterniond(target.turn).angularDistance(here.pose.q);
+    alarm.upper = orientation_allowed();
+  }
+  return alarm;
+}
+
+void Monitor::add_off_path(const PlaceTarget& target, RowVerdict& verdict) const {
+  // If all fit a place but one gauge, it is that one.
+  std::vector<PlaceTarget::Mask> suspects;
+  for (std::size_t k = 0; k < PlaceTarget::kChecks; ++k) {
+    const PlaceTarget::Mask one = PlaceTarget::bit(k);
+    if (k / kCables == 1) continue;  // lengths of a measured pose are one gauge
+    if ((target.mask & one) != 0 && (target.mask & ~one) != 0) suspects.push_back(one);
+  }
+  constexpr PlaceTarget::Mask kPoseLengths = ((1U << kCables) - 1) << kCables;
+  if ((target.mask & kPoseLengths) != 0 && (target.mask & ~kPoseLengths) != 0) suspects.push_back(kPoseLengths);
+  std::optional<PlaceTable::Fit> best;
+  PlaceTarget::Mask blamed = 0;
+  for (const PlaceTarget::Mask suspect : suspects) {
+    const PlaceTarget::Mask others = target.mask & ~suspect;
+    // One or two numbers fit somewhere by chance.
+    if (std::popcount(others) < 3 || table_.places(target, others, 0, table_.cells()).empty()) continue;
+    const PlaceTable::Fit fit = table_.best_fit(target, others, 0, table_.cells());
+    if (best && best->factor <= fit.factor) continue;
+    best = fit;
+    blamed = suspect;
+  }
+  const PlaceTable::Fit fit = best ? *best : table_.best_fit(target, target.mask, 0, table_.cells());
+  const PlaceTarget::Mask among = best ? blamed : target.mask;
+  Alarm worst;
+  double furthest = -1;
+  for (std::size_t k = 0; k < PlaceTarget::kChecks; ++k) {
+    if ((among & PlaceTarget::bit(k)) == 0) continue;
+    const Alarm alarm = off_path_alarm(target, k, fit.s);
+    const double middle = alarm.kind == AlarmKind::kLength ? 0.5 * (alarm.lower + alarm.upper) : 0;
+    const double allowed = std::max(alarm.upper - middle, 1e-9);
+    if (const double off = std::abs(alarm.measured - middle) / allowed; off > furthest) {
+      furthest = off;
+      worst = alarm;
+    }
+  }
+  worst.is_alone = best.has_value();
+  verdict.place = fit.s;
+  verdict.shares.place = furthest;
+  verdict.alarms.push_back(worst);
+}
+
+void Monitor::locate(const MeasuredRow& row, const PlaceTarget& target, Places& places, RowVerdict& verdict) {
+  const bool has_history = is_move() && row.time_s && last_time_s_ && !places_.empty();
+  if (has_history) {
+    const Places may_be = reachable(*row.time_s);
+    places = places_among(target, may_be);
+    if (places.empty()) {
+      places = all_places(target);
+      if (places.empty()) {
+        add_off_path(target, verdict);
+        places_ = may_be;  // it may have come so far meanwhile
+      } else {
+        const PlaceInterval& found = nearest(places);
+        Alarm alarm;
+        if (found.upper < may_be.front().lower) {
+          alarm.kind = AlarmKind::kBackwards;
+          alarm.measured = found.upper;
+          alarm.lower = may_be.front().lower;
+          alarm.upper = may_be.back().upper;
+        } else {
+          alarm.kind = AlarmKind::kAhead;
+          double least = HUGE_VAL;
+          for (const PlaceInterval& from : places_) {
+            if (from.lower <= found.upper) least = std::min(least, first_time(found.lower) - last_time(from.upper));
+          }
+          alarm.measured = least;
+          alarm.upper = *row.time_s - *last_time_s_ + 2 * errors_.time_s;
+        }
+        verdict.alarms.push_back(alarm);
+      }
+    }
+  } else {
+    if (has_place_) {
+      const std::size_t cell = table_.cell_at(last_place_);
+      places = table_.places(target, target.mask, cell - std::min(cell, kCellsNearby),
+                             std::min(cell + kCellsNearby, table_.cells()));
+    }
+    if (places.empty()) places = all_places(target);
+    if (places.empty()) add_off_path(target, verdict);
+  }
+  if (!places.empty()) places_ = places;
+  if (is_move() && row.time_s) last_time_s_ = row.time_s;
+}
+
+void Monitor::check_winches(const MeasuredRow& row, RowVerdict& verdict) {
+  if (!row.time_s) return;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    if (!winch_speed_[i] || !row.length_m[i]) continue;
+    const double v = *winch_speed_[i], length = *row.length_m[i], time = *row.time_s;
+    // Each of two lengths is off by so much; clocks, by time_s each.
+    const double off = 2 * length_allowed_[i] + v * (2 * errors_.time_s + kRounding_s) + 1e-9;
+    const LengthAt now{time, length};
+    std::optional<Envelope>& envelope = envelopes_[i];
+    if (!envelope) envelope = {now, now};
+    const auto falling = [&](const LengthAt& x) { return x.length_m - v * x.time_s; };
+    const auto rising = [&](const LengthAt& x) { return x.length_m + v * x.time_s; };
+    const double out = falling(now) - falling(envelope->least), in = rising(envelope->greatest) - rising(now);
+    if (std::max(out, in) > off) {
+      const LengthAt& before = out > in ? envelope->least : envelope->greatest;
+      Alarm alarm;
+      alarm.kind = AlarmKind::kWinchSpeed;
+      alarm.cable = static_cast<int>(i);
+      alarm.measured = std::abs(length - before.length_m);
+      alarm.over_s = time - before.time_s;
+      alarm.upper = v * alarm.over_s + off;
+      verdict.alarms.push_back(alarm);
+      envelope = {now, now};
+      continue;
+    }
+    if (out < 0) envelope->least = now;
+    if (in < 0) envelope->greatest = now;
+  }
+}
+
+std::vector<Alarm> Monitor::check_tensions(const MeasuredRow& row, const PlaceInterval& places, double s,
+                                           ResidualShares& shares) const {
+  if (std::ranges::none_of(row.tension_N, [](const auto& tension) { return tension.has_value(); })) return {};
+  constexpr double kShareOfRounding = 1e-12;
+  const auto share_in = [&](const PlaceTable::Piece& piece, std::size_t i) {
+    const double middle = 0.5 * (piece.tension[i].lower + piece.tension[i].upper);
+    const double half = 0.5 * (piece.tension[i].upper - piece.tension[i].lower) + errors_.tension_N +
+                        kShareOfRounding * std::abs(middle);
+    return std::abs(*row.tension_N[i] - middle) / half;
+  };
+  // That piece in which the worst of all tensions is best.
+  const PlaceTable::Piece* best = nullptr;
+  double least = HUGE_VAL, least_distance = HUGE_VAL;
+  for (const PlaceTable::Piece& piece : table_.pieces_at(places)) {
+    double worst = 0;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      if (row.tension_N[i]) worst = std::max(worst, share_in(piece, i));
+    }
+    const double distance = std::max({0.0, piece.places.lower - s, s - piece.places.upper});
+    // Of pieces without an alarm the nearest.
+    const double rank = std::max(worst, 1.0);
+    if (rank < least || (rank == least && distance < least_distance)) {
+      least = rank;
+      least_distance = distance;
+      best = &piece;
+      shares.tension = worst;
+    }
+  }
+  std::vector<Alarm> alarms;
+  for (std::size_t i = 0; best != nullptr && i < kCables; ++i) {
+    if (!row.tension_N[i] || !(share_in(*best, i) > 1)) continue;
+    Alarm alarm;
+    alarm.kind = AlarmKind::kTension;
+    alarm.cable = static_cast<int>(i);
+    alarm.measured = *row.tension_N[i];
+    alarm.lower = best->tension[i].lower - errors_.tension_N;
+    alarm.upper = best->tension[i].upper + errors_.tension_N;
+    alarms.push_back(alarm);
+  }
+  return alarms;
+}
+
+std::vector<Alarm> Monitor::check_load(const MeasuredRow& row, const PlaceInterval& places, double s,
+                                       ResidualShares& shares) const {
+  std::array<double, kCables> tension;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    if (!row.tension_N[i]) return {};
+    tension[i] = *row.tension_N[i];
+  }
+  if (is_length_controlled() && !row.pose) return {};  // then the tolerances do not say where the platform is
+  const PlaceTable::Node here = table_.at(s);
+  const PlaceTable::Spread spread = table_.spread(places, here);
+  WrenchTest::Place place;
+  place.commanded_turn = tolerances_.orientation;
+  if (row.pose) {
+    place.pose = *row.pose;
+    place.pose.q.normalize();
+    place.position_off = errors_.position_m;
+    place.turn_off = errors_.orientation_rad;
+    if (is_length_controlled()) {
+      place.commanded_turn = place.pose.q.angularDistance(here.pose.q) + place.turn_off + spread.turn;
+    }
+  } else {
+    place.pose = here.pose;
+    place.position_off = tolerances_.position + spread.position;
+    place.turn_off = tolerances_.orientation + spread.turn;
+  }
+  if (is_move()) {
+    place.places = {s};
+    constexpr int kPlaces = 5;
+    for (int k = 0; k < kPlaces && places.upper > places.lower; ++k) {
+      place.places.push_back(places.lower + (places.upper - places.lower) * k / (kPlaces - 1));
+    }
+  }
+  const WrenchVerdict verdict = load_.judge(proved_.path, place, tension, errors_.tension_N);
+  shares.load = verdict.share;
+  if (!verdict.is_outside) return {};
+  Alarm alarm;
+  alarm.kind = AlarmKind::kLoad;
+  alarm.measured = verdict.residual;
+  alarm.upper = verdict.allowed;
+  alarm.guess = verdict.guess;
+  return {alarm};
+}
+
+RowVerdict Monitor::judge(const MeasuredRow& row) {
+  RowVerdict verdict;
+  const PlaceTarget target = target_of(row);
+  if (!has_place_ && is_move() && row.time_s) last_place_ = at_time(*proved_.path.timing, *row.time_s).s;
+  Places places;
+  locate(row, target, places, verdict);
+  check_winches(row, verdict);
+  const auto forces = [&](const Places& candidates) {
+    // Some of them may be apart, as where a path crosses itself: the row is good if it is good at one.
+    std::optional<RowVerdict> first;
+    Places left = candidates;
+    while (!left.empty()) {
+      const PlaceInterval part = nearest(left);
+      RowVerdict here;
+      const std::size_t begin = table_.cell_at(part.lower), end = table_.cell_at(part.upper) + 1;
+      const PlaceTable::Fit fit = table_.best_fit(target, target.mask, begin, end);
+      here.place = std::clamp(fit.s, part.lower, part.upper);
+      here.shares.place = fit.factor;
+      here.alarms = check_tensions(row, part, *here.place, here.shares);
+      std::ranges::move(check_load(row, part, *here.place, here.shares), std::back_inserter(here.alarms));
+      if (!first || here.is_good()) first = here;
+      if (here.is_good()) break;
+      std::erase_if(left, [&](const PlaceInterval& other) { return other.lower == part.lower; });
+    }
+    return first;
+  };
+  if (std::optional<RowVerdict> found = forces(places); found) {
+    const bool is_timed = is_move() && row.time_s;
+    if (!found->is_good() && !is_timed) {
+      if (const std::optional<RowVerdict> elsewhere = forces(all_places(target)); elsewhere && elsewhere->is_good()) {
+        found = elsewhere;
+      }
+    }
+    verdict.place = found->place;
+    verdict.shares = found->shares;
+    std::ranges::move(found->alarms, std::back_inserter(verdict.alarms));
+    last_place_ = *found->place;
+    has_place_ = true;
+  }
+  if (is_move() && verdict.place) {
+    verdict.law_s = first_time(*verdict.place);
+    if (row.time_s) verdict.lead_s = *verdict.law_s - *row.time_s;
+  }
+  return verdict;
+}
+
+}  // namespace taut
