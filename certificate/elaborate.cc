@@ -206,7 +206,12 @@ Ball with_slack_for_rounding(const Ball& value, int bits) {
     arb_set_ui(r, 1);
     arb_mul_2exp_si(r, r, 12 - bits);
   });
-  return plus_minus(value, rounding * magnitude(value));
+  // Arb rounds radii to 30 bits.
+  const Ball of_radius = Ball::make([&value](arb_ptr r) {
+    arb_get_rad_arb(r, value.get());
+    arb_mul_2exp_si(r, r, -20);
+  });
+  return plus_minus(plus_minus(value, rounding * magnitude(value)), magnitude(of_radius));
 }
 
 /// The segment on which a witness is; that of a waypoint begins there.
@@ -368,7 +373,7 @@ class Elaborator::Search {
                   Witness& result) const {
     const checker::Problem& problem = elaborator_.problem_;
     const bool is_least = found.margin.kind == MarginKind::kTensionMin;
-    if (problem.items.empty() || !(is_least || found.margin.kind == MarginKind::kTensionMax)) return;
+    if (path_.timing || problem.items.empty() || !(is_least || found.margin.kind == MarginKind::kTensionMax)) return;
     try {
       const checker::Geometry stated = commanded_geometry(machine, problem, path_, k_, witness.at_box);
       const checker::Geometry there =

@@ -401,7 +401,7 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
 
 int run_audit(const AuditArguments& arguments) {
   const Stopwatch stopwatch;
-  const Case case_ = load_case(arguments.case_path);
+  const Case case_ = at_rest(load_case(arguments.case_path));
   const std::optional<Interpolation> law =
       arguments.law.empty() ? std::nullopt : std::optional(audit_laws().at(arguments.law));
   const AuditRequest request = resolved({arguments.path, law}, case_, arguments.case_path);

@@ -13,6 +13,7 @@
 #include "base/input_error.h"
 #include "base/plural.h"
 #include "base/sanitize.h"
+#include "cli/console.h"
 #include "reports/summary/load_statement.h"
 
 namespace taut {
@@ -45,12 +46,12 @@ MappedCase::MappedCase(const std::string& case_path, const std::string& from) {
     space = make_map_space(read.problem.space);
   };
   if (from.find_first_not_of("0123456789") == std::string::npos) {
-    the_case = load_case(case_path, set_space);
+    the_case = at_rest(load_case(case_path, set_space));
     start = numbered_start(the_case.problem, from);
     return;
   }
   MapStart typed{fmt::format("({})", from), {}};
-  the_case = load_case_and_waypoint(case_path, from, "--from", typed.waypoint, set_space);
+  the_case = at_rest(load_case_and_waypoint(case_path, from, "--from", typed.waypoint, set_space));
   start = std::move(typed);
 }
 

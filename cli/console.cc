@@ -18,6 +18,7 @@
 #include "cli/terminal.h"
 #include "reports/summary/bodies_statement.h"
 #include "reports/summary/load_statement.h"
+#include "reports/summary/time_statement.h"
 
 namespace taut {
 namespace {
@@ -62,6 +63,16 @@ void complain(std::string_view message) {
   static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
 }
 
+Case at_rest(Case the_case) {
+  if (!the_case.problem.time) return the_case;
+  the_case.problem = without_time(std::move(the_case.problem));
+  the_case.warnings.emplace_back(
+      "time: is not looked at by this command: it takes the machine for one that moves so slowly that inertia and "
+      "speeds "
+      "do not count");
+  return the_case;
+}
+
 void announce(const Case& the_case, bool json) {
   for (const std::string& warning : the_case.warnings) complain("warning: " + warning);
   if (json) return;
@@ -70,6 +81,7 @@ void announce(const Case& the_case, bool json) {
     print_wrapped(before + sanitize(line), before.front() == ' ' ? 0 : before.size());
     before = std::string(before.size(), ' ');
   }
+  if (the_case.problem.time) print_wrapped(time_limits_text(*the_case.problem.time, DisplayUnits(the_case.units)));
   if (!the_case.bodies) return;
   before = "Bodies: ";
   for (const std::string& line : lines(bodies_statement(*the_case.bodies))) {

@@ -151,7 +151,7 @@ void add_sensitivity_options(CLI::App& command, SensitivityArguments& arguments)
 
 int run_sensitivity(const SensitivityArguments& arguments) {
   const Stopwatch stopwatch;
-  const Case the_case = load_case(arguments.case_path);
+  const Case the_case = at_rest(load_case(arguments.case_path));
   const bool is_audit = !arguments.audit.empty() || the_case.audit;
   if (!is_audit) {
     (void)load_case(arguments.case_path, require_plannable);

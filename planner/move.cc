@@ -86,6 +86,9 @@ class MovePlanner {
     problem_.emplace(TimedPathProblem{prover_.problem(), make_moving_bodies<double>(prover_.problem().load),
                                       make_time_limits(prover_.problem())});
     problem_->limits.jerk = the_case.move.jerk_m_s3;
+    if (const auto& within = prover_.problem().time->stopping_time_s) {
+      problem_->slowing = 1 / evaluate_constant<double>(*within);
+    }
     problem_->tension_loss = tension_losses(prover_, path_, problem_->grid);
     const std::optional<TimedMove> move = time_optimal(path_, *problem_);
     const bool is_usable = move && move->law.controls.size() <= kMostControls;

@@ -178,14 +178,17 @@ const TensionLoss* loss_near(const TimedPathProblem& problem, double s) {
   return &problem.tension_loss[static_cast<std::size_t>(std::clamp(place, 0.0, last))];
 }
 
-/// The u that rows leave for an x: empty where lower > upper.
+/// The u that rows leave for an x: empty where lower > upper. Where a move may be slowed down, u' and x' with u' between
+/// min(u, 0) − √x slowing and max(u, 0) + √x slowing, and x' from 0 to x, have to obey the rows, too.
 struct Range {
   double lower = -kInfinity, upper = kInfinity;
 };
-Range range_of_u(const std::vector<Row>& rows, double share, double x) {
+Range range_of_u(const std::vector<Row>& rows, double share, double x, double slowing) {
   Range range;
   for (const Row& row : rows) {
-    const double left = share * row.c - row.b * x;
+    const double of_x = slowing > 0 ? std::max(0.0, row.b) * x : row.b * x;
+    const double left = share * row.c - of_x - std::abs(row.a) * std::sqrt(std::max(0.0, x)) * slowing;
+    if (slowing > 0 && left < 0) return {1, 0};
     if (row.a > 0) {
       range.upper = std::min(range.upper, left / row.a);
     } else if (row.a < 0) {
@@ -208,6 +211,7 @@ class Run {
               const PathRatesModel<double>& rates) {
     const std::size_t count = segments_ * problem.grid;
     step_ = 1.0 / static_cast<double>(problem.grid);
+    slowing_ = problem.slowing;
     const Vector load_point = sampler.model().p_PM;
     // Of the load point, and of a point as far away from it as the anchors are, roughly.
     std::vector<std::pair<Vector, Vector>> curvatures;
@@ -275,7 +279,7 @@ class Run {
     if (!is_bounded) return false;
     x_.assign(n + 1, std::isfinite(most[0]) ? most[0] : most[1]);
     for (std::size_t i = 0; i < n; ++i) {
-      const double u = range_of_u(rows_[i], shares_[i], x_[i]).upper;
+      const double u = range_of_u(rows_[i], shares_[i], x_[i], slowing_).upper;
       x_[i + 1] = std::isfinite(most[i + 1]) ? std::clamp(x_[i] + 2 * step_ * u, 0.0, most[i + 1]) : x_[i];
     }
     times_.assign(n + 1, 0);
@@ -330,7 +334,7 @@ class Run {
   /// The largest x at place i from which some u leads to at most `next` at the next one. All x from 0 to it do.
   [[nodiscard]] double largest(std::size_t i, double next) const {
     const auto is_possible = [&](double x) {
-      Range range = range_of_u(rows_[i], shares_[i], x);
+      Range range = range_of_u(rows_[i], shares_[i], x, slowing_);
       range.upper = std::min(range.upper, (next - x) / (2 * step_));
       range.lower = std::max(range.lower, -x / (2 * step_));
       return range.lower <= range.upper;
@@ -352,7 +356,7 @@ class Run {
 
   std::size_t first_, segments_;
   bool rests_;
-  double step_ = 0, length_ = 0;
+  double step_ = 0, length_ = 0, slowing_ = 0;
   std::vector<Bend> bends_;
   std::vector<std::vector<Row>> rows_;
   std::vector<double> shares_;  ///< of the rows' c, by place
@@ -404,7 +408,10 @@ double usage(const TimedPathProblem& problem, const PoseSampler& sampler, const 
   if (!all.is_feasible_at_rest()) return kInfinity;
   double most = all.power_usage(rate, acceleration);
   for (const Row& row : std::move(all).rows()) {
-    const double used = (row.a * acceleration + row.b * sqr(rate)) / row.c;
+    const double at_full_speed = row.a * acceleration + row.b * sqr(rate);
+    const double slowed = std::max(0.0, row.a * acceleration) + std::max(0.0, row.b) * sqr(rate) +
+                          std::abs(row.a) * rate * problem.slowing;
+    const double used = (problem.slowing > 0 ? slowed : at_full_speed) / row.c;
     most = std::max(most, row.a == 0 ? std::sqrt(std::max(0.0, used)) : used);
   }
   return most;
@@ -446,7 +453,7 @@ std::optional<TimedMove> time_optimal(const Path& path, const TimedPathProblem& 
     }
     // From one greatest acceleration to the opposite one within the window.
     const TimeLimits& limits = problem.limits;
-    const double acceleration = std::isfinite(limits.acceleration) ? limits.acceleration : jerk * duration / kGentle;
+    const double acceleration = std::min(limits.acceleration, jerk * duration / kGentle);  // that the path makes use of
     const double window = std::max(2 * acceleration / std::min(limits.jerk, jerk), duration / 200);
     move.law = joined(runs, window, rounded_up(window / 4));
 

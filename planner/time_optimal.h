@@ -35,6 +35,7 @@ struct TimedPathProblem {
   const Problem& problem;
   std::vector<MovingBody<double>> bodies;  ///< of the load: what of it has mass
   TimeLimits limits;
+  double slowing = 0;          ///< one over the time in which the move may be slowed down to rest [1/s]; 0: it may not
   double slack = 0.01;         ///< the share of each limit that is left alone
   std::size_t grid = 64;       ///< places a segment
   std::size_t most_tries = 8;  ///< of tightening

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Python module. Usage: taut_test.py TAUT SOURCE_DIR, with the module in PYTHONPATH."""
 import copy
+import dataclasses
 import hashlib
 import json
 import os
@@ -41,6 +42,25 @@ ROBOT = {
              "ellipsoid": {"diagonal": np.array([1e4, 1e4, 1e4, 1e6, 1e6, 1e6])}},
     "space": {"slice": {"px": 0, "py": 0, "pz": 350, "sigma": "34 deg"}},
     "query": {"waypoints": [{"phi": -2.3, "theta": 1.6}, {"phi": np.float64(1.7), "theta": 1.7}]},
+}
+
+# A crane that moves its load by 8 m in time.
+CRANE = {
+    "taut": 1,
+    "name": "crane",
+    "units": {"length": "m", "force": "kN", "moment": "kN*m", "mass": "t", "angle": "deg", "time": "s"},
+    "robot": {
+        "base_anchors": [[15, 10, 15]] * 2 + [[-15, 10, 15]] * 2 + [[0, -10, 15]] * 2,
+        "platform_anchors": np.array([[0, 1.5, 0], [1.3, -0.75, 0], [0, 1.5, 0], [-1.3, -0.75, 0], [1.3, -0.75, 0],
+                                      [-1.3, -0.75, 0]]),
+        "tension": [2, 160],
+        "length": [3, 35],
+    },
+    "load": {"gravity": [0, 0, "-9.81 m/s^2"], "items": [{"name": "payload", "mass": 20, "at": [0, 0, -1]}]},
+    "space": {"slice": {"px": [-8, 8], "py": 0, "pz": [3, 10], "phi": 0, "theta": 0, "sigma": 0}},
+    "query": {"waypoints": [{"px": -4, "pz": 6}, {"px": 4, "pz": 6}]},
+    "planner": {"strategy": "greedy", "smooth": "spline"},
+    "time": {"winches": {"speed": 1, "acceleration": 0.5}, "load": {"speed": 0.8, "acceleration": 0.2}},
 }
 
 
@@ -334,6 +354,93 @@ class Audits(unittest.TestCase):
             taut.audit(self.case, np.ones((2, 2)), columns=["phi[rad]"])
         with self.assertRaises(taut.InputError):
             taut.audit(self.case)  # which names no path
+
+
+class MovesInTime(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.case = taut.Case(CRANE)
+        cls.planned = taut.plan(cls.case)
+
+    def test_have_a_law_and_a_duration(self):
+        path = self.planned.path
+        self.assertEqual(self.planned.verdict, "proved", self.planned.reason)
+        self.assertEqual(path.timing.duration_s, self.planned.duration_s)
+        self.assertGreater(self.planned.duration_s, 8 / 0.8 + 0.8 / 0.2)
+        self.assertEqual(path.timing.controls[:3] @ [1, 4, 1], 0)
+        self.assertTrue((np.diff(path.timing.controls) >= 0).all())
+        self.assertLess(self.planned.move_plan.fastest_s, self.planned.duration_s)
+        self.assertEqual((self.planned.move_plan.speed_share, self.planned.move_plan.witness), (1, None))
+        loaded = pickle.loads(pickle.dumps(self.planned))
+        self.assertEqual((loaded.duration_s, loaded.move_plan), (self.planned.duration_s, None))
+        self.assertIn("0.8 m/s", self.case.time_statement)
+        still = taut.Case.load(ROBOT1)
+        self.assertEqual(still.time_statement, "")
+        self.assertIsNone(taut.plan(still).duration_s)
+
+    def test_are_proved_with_the_law_or_without(self):
+        path = self.planned.path
+        proved = taut.prove(self.case, path)
+        self.assertTrue(proved.is_proved)
+        self.assertEqual(proved.path.timing.controls.tobytes(), path.timing.controls.tobytes())
+        same = taut.prove(self.case, path.waypoints, interpolation=path.interpolation, half_turns=path.half_turns,
+                          timing=taut.TimeLaw(path.timing.step_s, list(path.timing.controls)))
+        self.assertEqual(same.text, proved.text)
+        slowly = taut.prove(self.case, path.waypoints, interpolation=path.interpolation, half_turns=path.half_turns)
+        self.assertEqual((slowly.verdict, slowly.duration_s, slowly.path.timing), ("proved", None, None))
+        with self.assertRaises(TypeError):
+            taut.prove(self.case, path, timing=path.timing)
+        with self.assertRaisesRegex(taut.InputError, "timing") as caught:
+            taut.prove(self.case, dataclasses.replace(path, timing=taut.TimeLaw(0.0, path.timing.controls)))
+        self.assertEqual(caught.exception.field, "timing")
+
+    def test_that_are_too_fast_are_refuted(self):
+        path = self.planned.path
+        fast = taut.TimeLaw(path.timing.step_s / 2, path.timing.controls)
+        refuted = taut.prove(taut.Case({**CRANE, "time": {"load": {"speed": "0.8 m/s"}}}),
+                             dataclasses.replace(path, timing=fast))
+        witness = refuted.theorem.witness
+        self.assertEqual((refuted.verdict, witness.kind, witness.cable, witness.limit),
+                         ("refuted", "load_speed", None, 0.8))
+        self.assertTrue(0.8 <= witness.value[0] <= witness.value[1] < 2)
+
+    def test_have_tables_and_samples(self):
+        winches, poses = self.planned.winches(50), self.planned.poses(50)
+        n = len(winches.time_s)
+        self.assertEqual([winches.length_m.shape, winches.speed_m_s.shape, winches.acceleration_m_s2.shape,
+                          poses.p_m.shape, poses.quaternion.shape], [(n, 6)] * 3 + [(n, 3), (n, 4)])
+        self.assertEqual((winches.time_s[0], winches.time_s[1], winches.time_s[-1]), (0, 0.02, self.planned.duration_s))
+        slopes = np.diff(winches.length_m, axis=0)[:-1] / 0.02
+        means = (winches.speed_m_s[:-2] + winches.speed_m_s[1:-1]) / 2
+        self.assertTrue(np.allclose(slopes, means, atol=1e-4))
+        self.assertEqual(poses.p_m[-1].tolist(), [4, 0, 6])
+        rows = [line for line in self.planned.winches_csv(50).splitlines() if not line.startswith("#")]
+        self.assertEqual([float(x) for x in rows[7].split(",")][13:], winches.acceleration_m_s2[6].tolist())
+        self.assertEqual(len(rows), n + 1)
+        self.assertIn(self.planned.theorem.certificate_sha256, self.planned.poses_csv(50))
+        self.assertIn("# t px py pz qx qy qz qw", self.planned.poses_tum())
+        with self.assertRaisesRegex(taut.InputError, "rate_Hz"):
+            self.planned.poses(0)
+        with self.assertRaisesRegex(taut.InputError, "not for a machine"):
+            taut.Certificate(self.planned.text).winches()
+        samples = self.planned.samples(100)
+        self.assertEqual((samples.time_s[0], samples.time_s[-1]), (0, self.planned.duration_s))
+        self.assertEqual(samples.time_s.shape, samples.position.shape)
+
+    def test_run_at_other_speeds(self):
+        seen = set()
+        slow = taut.plan(self.case, speed_share=0.5, progress=lambda stage, *_: seen.add(stage))
+        self.assertTrue(slow.is_proved)
+        self.assertAlmostEqual(slow.duration_s / self.planned.duration_s, 2, 3)
+        self.assertLessEqual(seen, {"planning", "proving the move"})
+        fast = taut.plan(self.case, greatest_speed=True)
+        self.assertLessEqual(fast.duration_s, self.planned.duration_s)
+        self.assertGreater(fast.move_plan.refuted_share, fast.move_plan.speed_share)
+        self.assertIsInstance(fast.move_plan.witness, taut.Witness)
+        with self.assertRaisesRegex(taut.InputError, "speed_share: got 2"):
+            taut.plan(self.case, speed_share=2)
+        with self.assertRaisesRegex(taut.InputError, "without the key 'time'"):
+            taut.plan(taut.Case.load(ROBOT1), greatest_speed=True)
 
 
 class NoPath(unittest.TestCase):
