@@ -35,8 +35,11 @@
 #include "checker/format/signature.h"
 #include "checker/kernel/errors.h"
 #include "kinematics/pose_conversion.h"
+#include "kinematics/time_limits.h"
 #include "path_io/controller_csv.h"
+#include "path_io/move_tables.h"
 #include "path_io/path_csv.h"
+#include "problem/expression.h"
 #include "reports/page/robot_drawing.h"
 #include "reports/summary/bodies_statement.h"
 #include "reports/summary/case_summary.h"
@@ -45,6 +48,8 @@
 #include "reports/summary/load_statement.h"
 #include "reports/summary/samples.h"
 #include "reports/summary/shown_bodies.h"
+#include "reports/summary/time_statement.h"
+#include "reports/summary/timed_sampler.h"
 
 namespace taut::v0 {
 
@@ -81,6 +86,7 @@ struct Certificate::Content {
   std::size_t boxes = 0;
   std::optional<std::size_t> no_path_from;  ///< of a certificate that no path exists, which has no path
   std::optional<Theorem> theorem;
+  std::optional<MoveStatistics> move;  ///< of a move that plan() made
 };
 
 namespace {
@@ -222,6 +228,7 @@ taut::Path inner(const Path& path) {
   taut::Path result;
   result.interpolation = inner(path.interpolation);
   result.times = path.times;
+  if (path.timing) result.timing = {path.timing->step_s, path.timing->controls};
   for (const Waypoint& waypoint : path.waypoints) {
     taut::Waypoint& copy = result.waypoints.emplace_back(taut::Waypoint{waypoint.x, waypoint.half_turns});
     if (copy.half_turns.empty() && !has_poses(result.interpolation)) copy.half_turns.assign(copy.x.size(), 0);
@@ -268,10 +275,17 @@ Witness outer(const PathWitness& witness, const Problem& problem) {
     result.depth_m = below(witness.depth_m);
     return result;
   }
-  result.kind = name(witness.margin.kind);
-  result.cable = witness.margin.cable + 1;
   result.value_lower = below(witness.value_lower);
   result.value_upper = above(witness.value_upper);
+  if (witness.rate) {
+    const RateId id = *witness.rate;
+    result.kind = name(id.kind);
+    if (is_of_winch(id.kind)) result.cable = id.cable + 1;
+    result.limit = evaluate_constant<double>(limit_of(problem.time.value(), id));
+    return result;
+  }
+  result.kind = name(witness.margin.kind);
+  result.cable = witness.margin.cable + 1;
   result.limit = ScalarTraits<double>::from_decimal(witness.limit);
   result.deviates = witness.deviation != nullptr;
   return result;
@@ -301,8 +315,10 @@ void read_no_path(const nlohmann::json& certificate, Certificate::Content& conte
 }
 
 /// A certificate that the checker has read.
-Certificate certificate_of(std::string text, checker::CheckResult checked) {
+/// @param move  of a move that was planned
+Certificate certificate_of(std::string text, checker::CheckResult checked, std::optional<MoveStatistics> move = {}) {
   Certificate::Content content;
+  content.move = std::move(move);
   if (is_no_path(*checked.certificate)) {
     read_no_path(*checked.certificate, content);
   } else {
@@ -349,6 +365,33 @@ Certificate checked_certificate(std::string text, const taut::Problem& problem, 
 void require_seconds(double seconds, const char* field) {
   if (seconds >= 0 && std::isfinite(seconds)) return;
   throw taut::InputError(fmt::format("{}: got {}, expected a number of seconds", field, seconds), {"", 0, field});
+}
+
+/// That what is asked of a move is possible, and the case's plans are moves.
+void require_move(const PlanOptions& options, const taut::Case& the_case, const std::string& file) {
+  constexpr double kLeastSpeed = 1e-3;
+  const double share = options.speed_share;
+  if (!(share >= kLeastSpeed && share <= 1)) {
+    throw taut::InputError(fmt::format("speed_share: got {}, expected a number from {} to 1", share, kLeastSpeed),
+                           {"", 0, "speed_share"});
+  }
+  const char* const field = options.greatest_speed ? "greatest_speed" : "speed_share";
+  if (options.greatest_speed && share != 1) {
+    throw taut::InputError(fmt::format("greatest_speed: got a speed_share of {}, too, expected one of the two", share),
+                           {"", 0, field});
+  }
+  if ((options.greatest_speed || share != 1) && !the_case.problem.time) {
+    throw taut::InputError(
+        fmt::format("{}: got the case {} without the key 'time', expected one that says what winches and load may do",
+                    field, file),
+        {"", 0, field});
+  }
+}
+
+/// The case for what looks at poses alone: without limits in time, and without inertia.
+taut::Case at_rest(taut::Case the_case) {
+  the_case.problem = without_time(std::move(the_case.problem));
+  return the_case;
 }
 
 /// The table as the text of a path file; its decimals read back as the same binary64.
@@ -445,6 +488,13 @@ std::vector<std::string> Case::bodies_statement() const {
   return within(ErrorCode::kCase, [&]() -> std::vector<std::string> {
     const std::optional<CaseBodies>& bodies = content_->the_case.bodies;
     return bodies ? lines(taut::bodies_statement(*bodies)) : std::vector<std::string>();
+  });
+}
+
+std::string Case::time_statement() const {
+  return within(ErrorCode::kCase, [&]() -> std::string {
+    const taut::Case& the_case = content_->the_case;
+    return the_case.problem.time ? time_limits_text(*the_case.problem.time, DisplayUnits(the_case.units)) : "";
   });
 }
 
@@ -574,7 +624,30 @@ Path Certificate::path() const {
   result.interpolation = outer(path.interpolation);
   for (const taut::Waypoint& waypoint : path.waypoints) result.waypoints.push_back({waypoint.x, waypoint.half_turns});
   result.times = path.times;
+  if (path.timing) result.timing = {path.timing->step_s, path.timing->controls};
   return result;
+}
+
+std::optional<double> Certificate::duration_s() const {
+  const std::optional<taut::TimeLaw>& law = content_->stated.path.timing;
+  return law ? std::optional(law->duration_s()) : std::nullopt;
+}
+
+std::optional<MovePlan> Certificate::move_plan() const {
+  const std::optional<MoveStatistics>& move = content_->move;
+  if (!move) return std::nullopt;
+  return within(ErrorCode::kCertificate, [&] {
+    MovePlan result;
+    result.planned_s = move->planned_s;
+    result.speed_share = move->speed_share;
+    result.fastest_s = move->fastest_s;
+    result.tries = static_cast<std::size_t>(move->tries);
+    if (const std::optional<GreatestSpeed>& greatest = move->greatest) {
+      result.refuted_share = greatest->refuted;
+      if (greatest->witness) result.witness = outer(*greatest->witness, content_->stated.problem);
+    }
+    return result;
+  });
 }
 
 std::string Certificate::path_csv() const {
@@ -599,6 +672,76 @@ std::string Certificate::controller_csv(double step_m) const {
   });
 }
 
+namespace {
+
+/// Checks that the move is proved, and its tables at this rate are not too long.
+void require_move_table(const Certificate& certificate, double rate_Hz, const char* table) {
+  const std::optional<double> duration_s = certificate.duration_s();
+  if (certificate.verdict() != Verdict::kProved || !duration_s) {
+    throw taut::InputError(fmt::format(
+        "{}: got a certificate without a theorem that a move in time is proved, expected a proved one: what is not "
+        "proved is not for a machine to follow",
+        table));
+  }
+  constexpr double kMostHz = 10'000;
+  if (!(rate_Hz > 0 && rate_Hz <= kMostHz)) {
+    throw taut::InputError(fmt::format("rate_Hz: got {}, expected a number above 0, at most {}", rate_Hz, kMostHz),
+                           {"", 0, "rate_Hz"});
+  }
+  if (!(*duration_s * rate_Hz < kMostMoveRows)) {
+    throw taut::InputError(
+        fmt::format("rate_Hz: got {}, at which a table of a move of {:.6g} s takes more than {} rows, expected a lower "
+                    "rate",
+                    rate_Hz, *duration_s, kMostMoveRows),
+        {"", 0, "rate_Hz"});
+  }
+}
+
+template <std::size_t kColumns>
+Table table_of(const std::array<std::string_view, kColumns>& columns,
+               const std::vector<std::array<double, kColumns>>& rows) {
+  Table table;
+  table.columns.assign(columns.begin(), columns.end());
+  table.values.reserve(kColumns * rows.size());
+  for (const auto& row : rows) table.values.insert(table.values.end(), row.begin(), row.end());
+  return table;
+}
+
+MoveRows move_rows_of(const Certificate& certificate, double rate_Hz, const char* table) {
+  require_move_table(certificate, rate_Hz, table);
+  const taut::Certificate& stated = certificate.content().stated;
+  return move_rows(stated.problem, stated.path, rate_Hz);
+}
+
+MoveTables move_tables_of(const Certificate& certificate, double rate_Hz, const char* table) {
+  require_move_table(certificate, rate_Hz, table);
+  const Certificate::Content& content = certificate.content();
+  return move_tables(content.stated.problem, content.stated.path, rate_Hz, content.checked.sha256);
+}
+
+}  // namespace
+
+Table Certificate::winches(double rate_Hz) const {
+  return within(ErrorCode::kUse,
+                [&] { return table_of(kWinchColumns, move_rows_of(*this, rate_Hz, "winches").winches); });
+}
+
+Table Certificate::poses(double rate_Hz) const {
+  return within(ErrorCode::kUse, [&] { return table_of(kPoseColumns, move_rows_of(*this, rate_Hz, "poses").poses); });
+}
+
+std::string Certificate::winches_csv(double rate_Hz) const {
+  return within(ErrorCode::kUse, [&] { return move_tables_of(*this, rate_Hz, "winches_csv").winches_csv; });
+}
+
+std::string Certificate::poses_csv(double rate_Hz) const {
+  return within(ErrorCode::kUse, [&] { return move_tables_of(*this, rate_Hz, "poses_csv").poses_csv; });
+}
+
+std::string Certificate::poses_tum(double rate_Hz) const {
+  return within(ErrorCode::kUse, [&] { return move_tables_of(*this, rate_Hz, "poses_tum").poses_tum; });
+}
+
 std::size_t Certificate::segments() const { return content_->stated.path.segments(); }
 std::size_t Certificate::boxes() const { return content_->boxes; }
 
@@ -615,6 +758,7 @@ std::vector<Sample> Certificate::samples(std::size_t about) const {
       copy.quaternion = {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()};
       copy.is_singular = !sample.statics.regular;
       copy.length_m = sample.statics.length;
+      if (sample.in_time) copy.time_s = sample.in_time->time_s;
       for (std::size_t i = 0; i < copy.length_m.size() && !copy.is_singular; ++i) {
         copy.tension_lower_N[i] = sample.statics.tension[i] - sample.statics.tension_below[i];
         copy.tension_upper_N[i] = sample.statics.tension[i] + sample.statics.tension_above[i];
@@ -648,6 +792,7 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
     require_seconds(options.max_check_seconds, "max_check_seconds");
     require_seconds(options.headroom_seconds, "headroom_seconds");
     require_seconds(options.no_path_seconds, "no_path_seconds");
+    require_move(options, planned, the_case.content().file);
     if (options.budget_seconds > 0) {
       planned.planner.max_seconds = options.budget_seconds;
       planned.planner.has_budget = true;
@@ -656,19 +801,22 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
     if (!options.save_atlas.empty()) require_writable(options.save_atlas);
     Planner planner(planned, options.atlas);
     const auto progress = [&](const PlanProgress& at) {
-      relay.report({"planning", static_cast<std::size_t>(at.charts), 0});
+      const bool is_move = at.move_tries > 0;
+      relay.report({is_move ? "proving the move" : "planning",
+                    static_cast<std::size_t>(is_move ? at.move_tries : at.charts), 0});
     };
     PlannedCase made = plan_case(planned, planner,
                                  {.grow = options.grow,
                                   .key = key ? &*key : nullptr,
                                   .max_seconds = options.max_check_seconds,
                                   .headroom_seconds = options.headroom_seconds,
-                                  .no_path_seconds = options.no_path_seconds},
+                                  .no_path_seconds = options.no_path_seconds,
+                                  .move = {options.speed_share, options.greatest_speed}},
                                  progress, relay.token());
     if (!options.save_atlas.empty() && planner.atlas().size() > 0) {
       write_whole({{options.save_atlas, planner.atlas_bytes()}});
     }
-    return certificate_of(std::move(made.text), std::move(made.checked));
+    return certificate_of(std::move(made.text), std::move(made.checked), std::move(made.plan.move));
   });
   relay.rethrow();
   return result;
@@ -678,7 +826,7 @@ Certificate prove(const Case& the_case, const Path& path, const ProveOptions& op
   return prove_within(ErrorCode::kPath, [&] {
     require_seconds(options.max_check_seconds, "max_check_seconds");
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
-    const taut::Case& about = the_case.content().the_case;
+    const taut::Case about = path.timing ? the_case.content().the_case : at_rest(the_case.content().the_case);
     const Decoration decoration = read_meshes(about.decoration);
     taut::Certificate certificate = prove_waypoints(about.problem, inner(path), options.max_bits, options.stop);
     certificate.illustration = {{"kind", "proof"}};
@@ -713,7 +861,7 @@ auto prove_path_within(ProgressBridge& relay, const Work& work) {
 Certificate audit_input(const Case& the_case, const PathInput& path, const AuditOptions& options) {
   ProgressBridge relay(options.progress, options.stop);
   const auto work = [&] {
-    const Case::Content& content = the_case.content();
+    const Case::Content content{at_rest(the_case.content().the_case), the_case.content().file};
     require_seconds(options.max_check_seconds, "max_check_seconds");
     require_seconds(options.headroom_seconds, "headroom_seconds");
     const AuditRequest request = audit_request(content, path, options.interpolation);
@@ -753,7 +901,7 @@ std::string sensitivity_of(const Case& the_case, const PathInput& path, const Se
   const auto progress = [&](const char* stage, std::size_t done, std::size_t all) { relay.report({stage, done, all}); };
   const auto work = [&]() -> std::string {
     require_seconds(options.budget_seconds, "budget_seconds");
-    const Case::Content& content = the_case.content();
+    const Case::Content content{at_rest(the_case.content().the_case), the_case.content().file};
     nlohmann::json found;
     if (!path.name.empty() || content.the_case.audit) {
       const AuditRequest request = audit_request(content, path, options.interpolation);

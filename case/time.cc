@@ -94,8 +94,12 @@ double read_jerk(const Field& field, const Units& units) {
   return jerk;
 }
 
-/// A time, in the case's units of time.
+/// A time, which has to have its unit where the case has another than seconds: neighbours are in those.
 ExpressionText read_stopping_time(const Field& field, const Units& units) {
+  const bool is_bare = field.node().IsScalar() && !split_unit(field.node().Scalar()).second;
+  if (is_bare && !field.node().Scalar().empty() && units[Dimension::kTime].name != "s") {
+    field.fail(fmt::format("a number with its unit, one of {}, as 'units' has another", unit_names(Dimension::kTime)));
+  }
   return text_of(field, read_rational(field, units[Dimension::kTime]));
 }
 

@@ -486,8 +486,9 @@ int run_plan(const PlanArguments& arguments) {
   if (outcome.is_proved()) {  // what is not proved is not for a machine to follow
     outcome.lengths = planner.measure(planned.plan.path);
     const Path& path = planned.plan.path;
-    files.push_back({out / "controller.csv", controller_csv(case_.problem, path, step, checked.sha256)});
-    if (path.timing) {
+    if (!path.timing) {
+      files.push_back({out / "controller.csv", controller_csv(case_.problem, path, step, checked.sha256)});
+    } else {  // a table without times would be about another motion than what is proved
       MoveTables tables = move_tables(case_.problem, path, case_.move.rate_Hz, checked.sha256);
       files.push_back({out / "winches.csv", std::move(tables.winches_csv)});
       files.push_back({out / "poses.csv", std::move(tables.poses_csv)});
@@ -508,7 +509,7 @@ int run_plan(const PlanArguments& arguments) {
   print_result(case_, outcome, context, report_options);
   print_wrapped(fmt::format("Written to {}: {}certificate.json{}", sanitize(out.string()),
                             !outcome.is_proved()       ? ""
-                            : planned.plan.path.timing ? "path.csv, controller.csv, winches.csv, poses.csv, poses.tum, "
+                            : planned.plan.path.timing ? "path.csv, winches.csv, poses.csv, poses.tum, "
                                                        : "path.csv, controller.csv, ",
                             arguments.no_report ? "" : ", report.html"));
   if (saves_atlas) print_wrapped(atlas_sentence(planned, planner.atlas().size(), arguments.save_atlas));

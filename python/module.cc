@@ -143,9 +143,13 @@ const char* name_of(taut::Outcome outcome) {
   return "malformed";
 }
 
+/// A law in time: its step and its controls.
+using Timing = std::pair<double, std::vector<double>>;
+
 taut::Path path_of(const std::string& interpolation, const Array& x, const std::optional<IntArray>& half_turns,
-                   std::vector<std::string> times) {
+                   std::vector<std::string> times, std::optional<Timing> timing) {
   taut::Path path = {interpolation_of(interpolation), {}, std::move(times)};
+  if (timing) path.timing = {timing->first, std::move(timing->second)};
   const auto rows = static_cast<std::size_t>(x.shape(0));
   const auto columns = static_cast<std::size_t>(x.shape(1));
   for (std::size_t k = 0; k < rows; ++k) {
@@ -165,7 +169,7 @@ py::array_t<T> array_of(const std::vector<Row>& rows, std::size_t columns) {
   return array;
 }
 
-/// The tuple (interpolation, waypoints, half turns or None, times).
+/// The tuple (interpolation, waypoints, half turns or None, times, (step, controls) or None).
 py::tuple path_tuple(const taut::Path& path) {
   std::vector<std::vector<double>> x;
   std::vector<std::vector<int>> half_turns;
@@ -175,8 +179,10 @@ py::tuple path_tuple(const taut::Path& path) {
   }
   const std::size_t columns = x.empty() ? 0 : x.front().size();
   const bool has_turns = !half_turns.empty() && !half_turns.front().empty();
-  return py::make_tuple(name_of(path.interpolation), array_of<double>(x, columns),
-                        has_turns ? py::object(array_of<int>(half_turns, columns)) : py::none(), path.times);
+  return py::make_tuple(
+      name_of(path.interpolation), array_of<double>(x, columns),
+      has_turns ? py::object(array_of<int>(half_turns, columns)) : py::none(), path.times,
+      path.timing ? py::object(py::make_tuple(path.timing->step_s, path.timing->controls)) : py::none());
 }
 
 py::tuple place_tuple(const taut::Place& place) { return py::make_tuple(place.index, place.s); }
@@ -189,7 +195,7 @@ py::dict witness_dict(const taut::Witness& witness) {
   dict["kind"] = witness.kind;
   dict["at"] = place_tuple(witness.at);
   dict["to"] = singular ? py::object(place_tuple(*witness.to)) : py::none();
-  dict["cable"] = of_limit(witness.cable);
+  dict["cable"] = witness.cable == 0 ? py::object(py::none()) : of_limit(witness.cable);
   dict["value"] = of_limit(std::make_pair(witness.value_lower, witness.value_upper));
   dict["limit"] = of_limit(witness.limit);
   dict["deviates"] = witness.deviates;
@@ -245,6 +251,32 @@ py::dict samples_dict(const std::vector<taut::Sample>& samples) {
   dict["tension_lower_N"] = array_of<double>(lower, 6);
   dict["tension_upper_N"] = array_of<double>(upper, 6);
   dict["length_m"] = array_of<double>(lengths, 6);
+  dict["time_s"] = py::none();
+  if (!samples.empty() && samples.front().time_s) {
+    std::vector<double> times;
+    for (const taut::Sample& sample : samples) times.push_back(sample.time_s.value());
+    dict["time_s"] = py::array_t<double>(static_cast<py::ssize_t>(times.size()), times.data());
+  }
+  return dict;
+}
+
+/// The rows of a table.
+py::array_t<double> table_array(const taut::Table& table) {
+  const std::size_t columns = table.columns.size();
+  py::array_t<double> array({table.values.size() / columns, columns});
+  std::copy(table.values.begin(), table.values.end(), array.mutable_data());
+  return array;
+}
+
+py::object move_plan_dict(const std::optional<taut::MovePlan>& plan) {
+  if (!plan) return py::none();
+  py::dict dict;
+  dict["planned_s"] = plan->planned_s;
+  dict["speed_share"] = plan->speed_share;
+  dict["fastest_s"] = plan->fastest_s;
+  dict["tries"] = plan->tries;
+  dict["refuted_share"] = plan->refuted_share;
+  dict["witness"] = plan->witness ? py::object(witness_dict(*plan->witness)) : py::none();
   return dict;
 }
 
@@ -285,6 +317,7 @@ void add_case(py::module_& module) {
       .def_property_readonly("query_waypoints", &taut::Case::query_waypoints)
       .def_property_readonly("bodies_statement", &taut::Case::bodies_statement)
       .def_property_readonly("load_statement", &taut::Case::load_statement)
+      .def_property_readonly("time_statement", &taut::Case::time_statement)
       .def_property_readonly("warnings", &taut::Case::warnings)
       .def("summary", &taut::Case::summary)
       .def("summary_json", &taut::Case::summary_json)
@@ -310,6 +343,17 @@ void add_certificate(py::module_& module) {
       .def_property_readonly("path", [](const taut::Certificate& c) { return path_tuple(c.path()); })
       .def_property_readonly("path_csv", &taut::Certificate::path_csv)
       .def("controller_csv", &taut::Certificate::controller_csv, py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("duration_s", &taut::Certificate::duration_s)
+      .def_property_readonly("move_plan", [](const taut::Certificate& c) { return move_plan_dict(c.move_plan()); })
+      .def("winches",
+           [](const taut::Certificate& c, double rate) {
+             return table_array(run([&](const std::stop_token&) { return c.winches(rate); }));
+           })
+      .def("poses", [](const taut::Certificate& c,
+                       double rate) { return table_array(run([&](const std::stop_token&) { return c.poses(rate); })); })
+      .def("winches_csv", &taut::Certificate::winches_csv, py::call_guard<py::gil_scoped_release>())
+      .def("poses_csv", &taut::Certificate::poses_csv, py::call_guard<py::gil_scoped_release>())
+      .def("poses_tum", &taut::Certificate::poses_tum, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("segments", &taut::Certificate::segments)
       .def_property_readonly("boxes", &taut::Certificate::boxes)
       .def("samples", [](const taut::Certificate& c, std::size_t about) {
@@ -322,26 +366,27 @@ void add_plan_and_prove(py::module_& module) {
       "plan",
       [](const taut::Case& the_case, double budget_seconds, const std::string& atlas, const std::string& save_atlas,
          bool grow, const std::string& signing_key, double max_check_seconds, double headroom_seconds,
-         double no_path_seconds, const py::object& progress) {
+         double no_path_seconds, double speed_share, bool greatest_speed, const py::object& progress) {
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
-          return taut::plan(the_case, {budget_seconds, atlas, save_atlas, grow, signing_key, callback, stop,
-                                       max_check_seconds, headroom_seconds, no_path_seconds});
+          return taut::plan(the_case,
+                            {budget_seconds, atlas, save_atlas, grow, signing_key, callback, stop, max_check_seconds,
+                             headroom_seconds, no_path_seconds, speed_share, greatest_speed});
         });
       },
       "case"_a, "budget_seconds"_a, "atlas"_a, "save_atlas"_a, "grow"_a, "signing_key"_a, "max_check_seconds"_a,
-      "headroom_seconds"_a, "no_path_seconds"_a, "progress"_a);
+      "headroom_seconds"_a, "no_path_seconds"_a, "speed_share"_a, "greatest_speed"_a, "progress"_a);
 
   module.def(
       "prove",
       [](const taut::Case& the_case, const std::string& interpolation, const Array& waypoints,
-         const std::optional<IntArray>& half_turns, std::vector<std::string> times, long max_bits,
-         const std::string& signing_key, double max_check_seconds) {
-        const taut::Path path = path_of(interpolation, waypoints, half_turns, std::move(times));
+         const std::optional<IntArray>& half_turns, std::vector<std::string> times, std::optional<Timing> timing,
+         long max_bits, const std::string& signing_key, double max_check_seconds) {
+        const taut::Path path = path_of(interpolation, waypoints, half_turns, std::move(times), std::move(timing));
         return run([&](const std::stop_token& stop) {
           return taut::prove(the_case, path, {max_bits, signing_key, stop, max_check_seconds});
         });
       },
-      "case"_a, "interpolation"_a, "waypoints"_a, "half_turns"_a, "times"_a, "max_bits"_a, "signing_key"_a,
+      "case"_a, "interpolation"_a, "waypoints"_a, "half_turns"_a, "times"_a, "timing"_a, "max_bits"_a, "signing_key"_a,
       "max_check_seconds"_a);
 }
 

@@ -120,6 +120,9 @@ class TAUT_EXPORT Case {
   /// What may not touch what, as it was understood, in m, mm and degrees, a sentence each; empty where the case states
   /// no bodies: then nothing is proved of collisions. Read it as you read the load.
   [[nodiscard]] std::vector<std::string> bodies_statement() const;
+  /// What winches and load may do in time, as it was understood; empty where the case does not limit it: then its plans
+  /// are paths that are passed slowly. Read it as you read the load.
+  [[nodiscard]] std::string time_statement() const;
   /// What may not be meant as it was typed, each with its place in the file: what the commands print as warnings.
   [[nodiscard]] std::vector<std::string> warnings() const;
 
@@ -157,10 +160,24 @@ struct Waypoint {
   std::vector<int> half_turns;
 };
 
+/// When a move is where on its path: a uniform cubic B-spline of time, whose values count segments. It never falls, and
+/// runs from 0 to the number of segments; exactly (docs/certificate-format.md).
+struct TimeLaw {
+  double step_s = 0;             ///< between knots [s], above 0
+  std::vector<double> controls;  ///< three more than pieces of the law; 4 to 20,000
+  /// How long the move takes, rounded.
+  [[nodiscard]] double duration_s() const {
+    return controls.size() < 4 ? 0 : step_s * static_cast<double>(controls.size() - 3);
+  }
+};
+
 struct Path {
   Interpolation interpolation = Interpolation::kStraight;
   std::vector<Waypoint> waypoints;
   std::vector<std::string> times;  ///< decimals [s], ascending, one a waypoint, or none; no part of any claim
+  /// Of a move in time (docs/moves.md): straight segments or a spline, in a case with the key `time`. Nothing: the path
+  /// is passed slowly.
+  std::optional<TimeLaw> timing = {};
 };
 
 /// A table of numbers with a row for each waypoint.
@@ -180,11 +197,11 @@ enum class Verdict {
   kNoPath      ///< no motion at all leads from one waypoint of a query to the next
 };
 
-/// Proved lower bounds, rounded down.
+/// Proved lower bounds, rounded down. Those of a move are with the load's inertia, at every time.
 struct Margins {
   double tension_N = 0;     ///< every tension stays so far inside its limits, for every wrench
   double length_m = 0;      ///< and every length
-  double wrench_scale = 0;  ///< the ellipsoid of wrenches could be larger by this factor
+  double wrench_scale = 0;  ///< the ellipsoid of wrenches could be larger by this factor; 1 of a move
   /// The bodies of every checked pair are farther apart than their clearance by this much; nothing where no pair is.
   std::optional<double> clearance_m;
 };
@@ -198,11 +215,14 @@ struct Place {
 
 /// A proved violation.
 struct Witness {
-  std::string kind;  ///< "tension_min", "tension_max", "length_min", "length_max", "singular" or "contact"
+  /// "tension_min", "tension_max", "length_min", "length_max", "singular" or "contact"; of a move also what is too fast,
+  /// "winch_speed", "winch_acceleration", "winch_power", "load_speed", "load_acceleration", "load_angular_speed" or
+  /// "load_angular_acceleration"
+  std::string kind;
   Place at;
   std::optional<Place> to;  ///< singular: somewhere from `at` to here; the rest is then empty
-  int cable = 0;            ///< 1 to 6
-  double value_lower = 0;   ///< the tension [N] or length [m] lies between these two
+  int cable = 0;            ///< 1 to 6; 0 of the load
+  double value_lower = 0;   ///< the tension [N], length [m] or rate [SI] lies between these two
   double value_upper = 0;
   double limit = 0;
   bool deviates = false;  ///< the machine is not the stated one, but within the case's tolerances
@@ -239,7 +259,8 @@ struct Stretch {
   std::string reason_code;                                ///< "U5": `taut explain` has more about it; may be empty
 };
 
-/// A pose of a path in floating point. For plots: nothing here is proved.
+/// A pose of a path in floating point. For plots: nothing here is proved. Of a move, tensions are those with the load's
+/// inertia at that time.
 struct Sample {
   double position = 0;  ///< k + s: the point s of segment k
   std::array<double, 3> p_m{};
@@ -248,6 +269,19 @@ struct Sample {
   std::array<double, 6> tension_lower_N{};  ///< over all wrenches of the ellipsoid
   std::array<double, 6> tension_upper_N{};
   std::array<double, 6> length_m{};
+  std::optional<double> time_s;  ///< of a move: when
+};
+
+/// How plan() made a move; nothing of this is in the certificate. Shares are of the speed of the law that was proved
+/// first.
+struct MovePlan {
+  double planned_s = 0;             ///< how long that law takes
+  double speed_share = 1;           ///< at which the move runs
+  std::optional<double> fastest_s;  ///< the fastest law without a limit of jerk, in floating point; if one was found
+  std::size_t tries = 0;            ///< laws that were to be proved
+  /// Where the greatest speed was sought: the smallest share that was refuted, if any, and what is violated then.
+  std::optional<double> refuted_share;
+  std::optional<Witness> witness;
 };
 
 /// A claim with all that is needed to prove it again (docs/certificate-format.md). Copies are cheap.
@@ -283,6 +317,10 @@ class TAUT_EXPORT Certificate {
   /// sought. The program that wrote the certificate says so; it is no part of the claim, and nothing checks it.
   [[nodiscard]] std::string headroom() const;
   [[nodiscard]] Path path() const;  ///< bit for bit
+  /// How long the move takes; nothing of a path without a law in time.
+  [[nodiscard]] std::optional<double> duration_s() const;
+  /// How plan() made the move; nothing of what it did not make, and of a certificate that was loaded.
+  [[nodiscard]] std::optional<MovePlan> move_plan() const;
   /// As `taut plan` writes it of a proved path, for a machine to follow; its last line names this certificate's
   /// SHA-256.
   [[nodiscard]] std::string path_csv() const;
@@ -292,10 +330,23 @@ class TAUT_EXPORT Certificate {
   /// @throws InputError unless the theorem is there and says "proved", and `step_m` is from 1e-9 to 1e6, and enough for
   /// 200,000 rows.
   [[nodiscard]] std::string controller_csv(double step_m = 0.01) const;
+  /// A proved move in time, for the drives that follow it (docs/moves.md): t; lengths l1 … l6 [m], and their first two
+  /// derivatives v1 … [m/s] and a1 … [m/s^2]. Rows are at t = 0, 1/rate, 2/rate, … and where the move ends. They are on
+  /// the move but for rounding; what drives do between them is not proved.
+  /// @throws InputError unless the theorem is there and says "proved" of a move, and `rate_Hz` is above 0, at most
+  /// 10,000, and low enough for 500,000 rows.
+  [[nodiscard]] Table winches(double rate_Hz = 100) const;
+  /// The same rows as poses: t, px, py, pz [m], qx, qy, qz, qw. @throws  as winches()
+  [[nodiscard]] Table poses(double rate_Hz = 100) const;
+  /// The same as the files that `taut plan` writes at this rate: winches.csv, poses.csv and poses.tum.
+  /// @throws  as winches()
+  [[nodiscard]] std::string winches_csv(double rate_Hz = 100) const;
+  [[nodiscard]] std::string poses_csv(double rate_Hz = 100) const;
+  [[nodiscard]] std::string poses_tum(double rate_Hz = 100) const;
   [[nodiscard]] std::size_t segments() const;
   [[nodiscard]] std::size_t boxes() const;  ///< pieces of the proof; of no path, cells without a feasible pose
 
-  /// About so many poses along the path, in order, with both ends.
+  /// About so many poses along the path, in order, with both ends; of a move equally spaced in time.
   [[nodiscard]] std::vector<Sample> samples(std::size_t about = 200) const;
 
   struct Content;  // the library's own
@@ -309,9 +360,10 @@ class TAUT_EXPORT Certificate {
 // --- What taut does --------------------------------------------------------------------------------------------------
 
 struct Progress {
-  const char* stage = "";  ///< "planning", "auditing", "seeking provable shares" or "trying changes"
-  std::size_t done = 0;    ///< charts made, segments judged, shares found, or changes tried
-  std::size_t total = 0;   ///< 0: nobody knows
+  /// "planning", "proving the move", "auditing", "seeking provable shares" or "trying changes"
+  const char* stage = "";
+  std::size_t done = 0;   ///< charts made, laws tried, segments judged, shares found, or changes tried
+  std::size_t total = 0;  ///< 0: nobody knows
 };
 
 /// Called every now and then, by one thread at a time, which need not be the caller's.
@@ -338,11 +390,16 @@ struct PlanOptions {
   double max_check_seconds = kCheckSeconds;    ///< that the checker may take before the certificate is unchecked
   double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares; 0: they are not sought
   double no_path_seconds = kNoPathSeconds;     ///< for proving that no path exists; 0: that is not tried
+  /// Of a move: run it at this share of the planned speed, from 0.001 to 1, or slower where that is not proved.
+  double speed_share = 1;
+  /// Of a move: run its law as fast as that is proved, and seek what stands in the way of more. Goes with share 1.
+  bool greatest_speed = false;
 };
 
-/// Plans through the case's query and proves the path: `taut plan`. Where the search finds no path, it tries to prove
-/// that none exists (kNoPath); where that is not proved either, the case is undecided.
-/// @throws InputError, also where the case has no query.
+/// Plans through the case's query and proves the path: `taut plan`. In a case with the key `time` it is a move. Where
+/// the search finds no path, it tries to prove that none exists (kNoPath); where that is not proved either, the case is
+/// undecided.
+/// @throws InputError, also where the case has no query, or a speed is asked for and the case has no key `time`.
 [[nodiscard]] TAUT_EXPORT Certificate plan(const Case& the_case, const PlanOptions& options = {});
 
 struct ProveOptions {
@@ -353,7 +410,8 @@ struct ProveOptions {
 };
 
 /// Proves a path that the caller has made. One that is not proved is refuted at the first violation found, or undecided
-/// at the first piece that is: audit() tells of all. The case's query has no part in it.
+/// at the first piece that is: audit() tells of all. The case's query has no part in it. A path with a law in time is
+/// proved as a move, one without as passed slowly, also where the case limits moves.
 /// @throws InputError where the path does not fit the case; Interrupted.
 [[nodiscard]] TAUT_EXPORT Certificate prove(const Case& the_case, const Path& path, const ProveOptions& options = {});
 
@@ -367,8 +425,8 @@ struct AuditOptions {
   double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares; 0: they are not sought
 };
 
-/// Proves a path or says of every stretch that is not proved where it is and why: `taut audit`. Memory grows with the
-/// path here; the command's does not.
+/// Proves a path or says of every stretch that is not proved where it is and why: `taut audit`. The path is passed
+/// slowly, also where the case limits moves. Memory grows with the path here; the command's does not.
 /// @throws InputError with the file's line where the path is wrong; Interrupted.
 [[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const std::string& path_file,
                                             const AuditOptions& options = {});

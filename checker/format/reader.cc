@@ -144,7 +144,10 @@ class Reader {
     const std::size_t segments = std::max(path.segments(), std::min<std::size_t>(waypoints, 1));
     require_size(json["tubes"], path.tubes.size(), problem.constraints.empty() ? 0 : segments);
     require_size(json["pose_tubes"], path.pose_tubes.size(), path.law == Law::kCableLengths ? segments : 0);
-    if (json.has("timing")) read_timing(json["timing"], problem, path);
+    if (json.has("timing")) {
+      read_timing(json["timing"], problem, path);
+      json["times"].require(json["times"].is_null(), "null in a move, whose law says when it is where");
+    }
     const bool may_be_at_rest = !problem.time || result_.verdict != Verdict::kProved;
     json.require(path.timing || may_be_at_rest, "the key 'timing' of a proved move");
     if (!has_poses(path.law)) return;

@@ -152,7 +152,7 @@ T atan2(const T& y, const T& x) {
   const T right_angle(Ball::pi() / Ball(2));
   if (certainly_positive(up)) return right_angle - apply(Function::kAtan, x / y);
   if (certainly_negative(up)) return -right_angle - apply(Function::kAtan, x / y);
-  if (up.is_zero() && certainly_negative(over)) return T(Ball::pi());
+  if (up.is_zero() && y.is_constant() && certainly_negative(over)) return T(Ball::pi());
   throw Undefined("atan2 at what may be the origin or its cut");
 }
 

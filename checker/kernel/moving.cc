@@ -93,6 +93,13 @@ FrameJet frame_over(const Problem& problem, const Path& path, std::size_t k, con
   const std::span<const Waypoint> controls = path.controls(k);
   for (std::size_t j = 0; j < controls[0].x.size(); ++j) {
     const auto [a, b] = coordinate(controls, j);
+    const auto is_still = [](const Polynomial& p) {
+      return std::all_of(p.begin() + 1, p.end(), [](const auto& c) { return c == 0; });
+    };
+    if (is_still(a) && is_still(b)) {
+      parameters.emplace_back(form(a, b).range());
+      continue;
+    }
     const auto by_s = [&](const auto& map) { return form(over(map(a), box), over(map(b), box)).range(); };
     parameters.emplace_back(by_s([](const Polynomial& p) { return p; }),
                             by_s([](const Polynomial& p) { return derivative(p); }),

@@ -9,26 +9,38 @@
 
 namespace taut::checker {
 
+/// A box may be a point, where f' and f'' may be 0 of an f that is no constant; so constants are known as such. Only of
+/// them may functions be taken where they have no derivatives, as sqrt at 0.
 struct SecondJet {
   Ball value, first, second;
 
   SecondJet() = default;  ///< the constant 0
   explicit SecondJet(Ball constant) : value(std::move(constant)) {}
-  SecondJet(Ball f, Ball f1, Ball f2) : value(std::move(f)), first(std::move(f1)), second(std::move(f2)) {}
+  SecondJet(Ball f, Ball f1, Ball f2)
+      : value(std::move(f)), first(std::move(f1)), second(std::move(f2)), is_constant_(false) {}
 
-  [[nodiscard]] bool is_constant() const { return first.is_zero() && second.is_zero(); }
+  [[nodiscard]] bool is_constant() const { return is_constant_; }
+
+ private:
+  bool is_constant_ = true;
 };
 
 inline Ball range(const SecondJet& f) { return f.value; }
 
 inline SecondJet operator+(const SecondJet& a, const SecondJet& b) {
+  if (a.is_constant() && b.is_constant()) return SecondJet(a.value + b.value);
   return {a.value + b.value, a.first + b.first, a.second + b.second};
 }
 inline SecondJet operator-(const SecondJet& a, const SecondJet& b) {
+  if (a.is_constant() && b.is_constant()) return SecondJet(a.value - b.value);
   return {a.value - b.value, a.first - b.first, a.second - b.second};
 }
-inline SecondJet operator-(const SecondJet& a) { return {-a.value, -a.first, -a.second}; }
-inline SecondJet operator*(const Ball& a, const SecondJet& b) { return {a * b.value, a * b.first, a * b.second}; }
+inline SecondJet operator-(const SecondJet& a) {
+  return a.is_constant() ? SecondJet(-a.value) : SecondJet(-a.value, -a.first, -a.second);
+}
+inline SecondJet operator*(const Ball& a, const SecondJet& b) {
+  return b.is_constant() ? SecondJet(a * b.value) : SecondJet(a * b.value, a * b.first, a * b.second);
+}
 inline SecondJet operator*(const SecondJet& a, const Ball& b) { return b * a; }
 inline SecondJet operator*(const SecondJet& a, const SecondJet& b) {
   if (a.is_constant()) return a.value * b;

@@ -28,15 +28,15 @@ from numpy.typing import ArrayLike, NDArray
 from . import _taut
 from ._errors import InputError, InternalError, Interrupted, UntrustworthyMachine
 
-__all__ = ["Case", "Certificate", "CheckResult", "InputError", "InternalError", "Interrupted", "Margins", "Path",
-           "Place", "Samples", "Stretch", "Theorem", "UntrustworthyMachine", "Witness", "audit", "check", "plan",
-           "prove", "report", "sensitivity"]
+__all__ = ["Case", "Certificate", "CheckResult", "InputError", "InternalError", "Interrupted", "Margins",
+           "MovePlan", "Path", "Place", "Poses", "Samples", "Stretch", "Theorem", "TimeLaw", "UntrustworthyMachine",
+           "Winches", "Witness", "audit", "check", "plan", "prove", "report", "sensitivity"]
 __version__: str = _taut.version
 
 Floats = NDArray[np.float64]
-#: Called at most twenty times a second, in the calling thread, with the stage ("planning", "auditing", "seeking
-#: provable shares" or "trying changes"), the number of charts, segments, shares or changes that are done, and their
-#: total (0: unknown). An exception that it raises ends the work and reaches the caller.
+#: Called at most twenty times a second, in the calling thread, with the stage ("planning", "proving the move",
+#: "auditing", "seeking provable shares" or "trying changes"), the number of charts, laws, segments, shares or changes
+#: that are done, and their total (0: unknown). An exception that it raises ends the work and reaches the caller.
 Progress = Callable[[str, int, int], Any]
 FileName = Union[str, "os.PathLike[str]"]
 #: Default time limit of the checker [s].
@@ -120,6 +120,14 @@ class Case:
         return self._case.load_statement
 
     @property
+    def time_statement(self) -> str:
+        """What winches and load may do in time, as it was understood.
+
+        Empty where the case does not limit it: then its plans are paths that are passed slowly.
+        """
+        return self._case.time_statement
+
+    @property
     def warnings(self) -> list[str]:
         """What may not be meant as it was typed, each with its place: what the commands print as warnings."""
         return self._case.warnings
@@ -148,12 +156,28 @@ class Case:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class TimeLaw:
+    """When a move is where on its path: a uniform cubic B-spline of time, whose values count segments.
+
+    It never falls, and runs from 0 to the number of segments, exactly (docs/certificate-format.md).
+    """
+    step_s: float     #: between knots [s]
+    controls: Floats  #: (n,): three more than pieces of the law; 4 to 20,000
+
+    @property
+    def duration_s(self) -> float:
+        """How long the move takes, rounded."""
+        return self.step_s * max(len(self.controls) - 3, 0)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class Path:
     """Waypoints, bit for bit, and the law between them: "straight", "spline", "geodesic" or "cable-lengths"."""
     interpolation: str
     waypoints: Floats                      #: (n, columns), see prove()
     half_turns: Optional[NDArray[np.intc]] #: (n, columns): parameters are waypoints + π half_turns; None for poses
     times: tuple[str, ...]                 #: decimals [s]; may be empty
+    timing: Optional[TimeLaw] = None       #: of a move in time (docs/moves.md); None: the path is passed slowly
 
     @property
     def parameters(self) -> Floats:
@@ -165,10 +189,10 @@ class Path:
 
 @dataclasses.dataclass(frozen=True)
 class Margins:
-    """Proved lower bounds, rounded down."""
+    """Proved lower bounds, rounded down. Those of a move are with the load's inertia, at every time."""
     tension_N: float     #: every tension stays at least this far inside its limits, for every wrench
     length_m: float      #: every length stays at least this far inside its limits
-    wrench_scale: float  #: the ellipsoid of wrenches could be larger by this factor
+    wrench_scale: float  #: the ellipsoid of wrenches could be larger by this factor; 1 of a move
     clearance_m: Optional[float]  #: bodies are farther apart than their clearances by this; None: no pair is checked
 
 
@@ -187,12 +211,14 @@ class Place:
 @dataclasses.dataclass(frozen=True)
 class Witness:
     """A proved violation."""
-    #: "tension_min", "tension_max", "length_min", "length_max", "singular" or "contact"
+    #: "tension_min", "tension_max", "length_min", "length_max", "singular" or "contact"; of a move also what is too
+    #: fast, "winch_speed", "winch_acceleration", "winch_power", "load_speed", "load_acceleration",
+    #: "load_angular_speed" or "load_angular_acceleration"
     kind: str
     at: Place
     to: Optional[Place]                    #: of "singular", which is between `at` and `to`; the next three are None
-    cable: Optional[int]                   #: 1 to 6
-    value: Optional[tuple[float, float]]   #: the tension [N] or length [m] lies between these two
+    cable: Optional[int]                   #: 1 to 6; None of the load
+    value: Optional[tuple[float, float]]   #: the tension [N], length [m] or rate [SI] lies between these two
     limit: Optional[float]
     deviates: bool                         #: the machine is not the stated one, but within the case's tolerances
     bodies: Optional[tuple[str, str]]      #: of "contact", which has no cable, value or limit: two that are too near,
@@ -221,13 +247,49 @@ class Stretch:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Samples:
-    """Poses of a path in floating point, for plots. Nothing here is proved."""
+    """Poses of a path in floating point, for plots. Nothing here is proved.
+
+    Those of a move are equally spaced in time, with the tensions that the load's inertia makes of them.
+    """
     position: Floats         #: (n,): k + s is the point s of segment k
     p_m: Floats              #: (n, 3)
     quaternion: Floats       #: (n, 4): x, y, z, w
     tension_lower_N: Floats  #: (n, 6) over all wrenches of the ellipsoid; NaN where the pose is singular
     tension_upper_N: Floats  #: (n, 6)
     length_m: Floats         #: (n, 6)
+    time_s: Optional[Floats] = None  #: (n,) of a move
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Winches:
+    """A proved move in time, for the drives that follow it; in floating point."""
+    time_s: Floats              #: (n,)
+    length_m: Floats            #: (n, 6)
+    speed_m_s: Floats           #: (n, 6): of the lengths
+    acceleration_m_s2: Floats   #: (n, 6)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Poses:
+    """A proved move in time; in floating point."""
+    time_s: Floats      #: (n,)
+    p_m: Floats         #: (n, 3)
+    quaternion: Floats  #: (n, 4): x, y, z, w
+
+
+@dataclasses.dataclass(frozen=True)
+class MovePlan:
+    """How plan() made a move; nothing of this is in the certificate.
+
+    Shares are of the speed of the law that was proved first.
+    """
+    planned_s: float            #: how long that law takes
+    speed_share: float          #: at which the move runs
+    fastest_s: Optional[float]  #: the fastest law without a limit of jerk, in floating point; if one was found
+    tries: int                  #: laws that were to be proved
+    #: where the greatest speed was sought: the smallest share that was refuted, if any, and what is violated then
+    refuted_share: Optional[float]
+    witness: Optional[Witness]
 
 
 class Certificate:
@@ -324,8 +386,20 @@ class Certificate:
 
     @property
     def path(self) -> Path:
-        interpolation, waypoints, half_turns, times = self._certificate.path
-        return Path(interpolation, waypoints, half_turns, tuple(times))
+        interpolation, waypoints, half_turns, times, timing = self._certificate.path
+        law = timing and TimeLaw(timing[0], np.array(timing[1]))
+        return Path(interpolation, waypoints, half_turns, tuple(times), law)
+
+    @property
+    def duration_s(self) -> Optional[float]:
+        """How long the move takes; None of a path without a law in time."""
+        return self._certificate.duration_s
+
+    @property
+    def move_plan(self) -> Optional[MovePlan]:
+        """How plan() made the move; None of what it did not make, and of a certificate that was loaded."""
+        plan = self._certificate.move_plan
+        return plan and MovePlan(**{**plan, "witness": _witness(plan["witness"])})
 
     @property
     def path_csv(self) -> str:
@@ -339,6 +413,35 @@ class Certificate:
         :raises InputError: unless the certificate has a theorem that the path is proved
         """
         return self._certificate.controller_csv(step)
+
+    def winches(self, rate: float = 100.0) -> Winches:
+        """Lengths, speeds and accelerations of the cables of a proved move in time (docs/moves.md).
+
+        Rows are at t = 0, 1/rate, 2/rate, … and where the move ends. They are on the move but for rounding; what drives
+        do between them is not proved.
+
+        :param rate: rows a second, up to 10,000
+        :raises InputError: unless the certificate has a theorem that a move is proved
+        """
+        rows = self._certificate.winches(rate)
+        return Winches(rows[:, 0], rows[:, 1:7], rows[:, 7:13], rows[:, 13:])
+
+    def poses(self, rate: float = 100.0) -> Poses:
+        """The same rows as poses."""
+        rows = self._certificate.poses(rate)
+        return Poses(rows[:, 0], rows[:, 1:4], rows[:, 4:])
+
+    def winches_csv(self, rate: float = 100.0) -> str:
+        """winches.csv, as `taut plan` writes it at this rate; see winches()."""
+        return self._certificate.winches_csv(rate)
+
+    def poses_csv(self, rate: float = 100.0) -> str:
+        """poses.csv, likewise."""
+        return self._certificate.poses_csv(rate)
+
+    def poses_tum(self, rate: float = 100.0) -> str:
+        """poses.tum, likewise, for programs that compare trajectories."""
+        return self._certificate.poses_tum(rate)
 
     @property
     def segments(self) -> int:
@@ -365,8 +468,9 @@ class Certificate:
 def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] = None,
          save_atlas: Optional[FileName] = None, grow: bool = False, signing_key: str = "",
          max_check_seconds: float = CHECK_SECONDS, headroom_seconds: float = HEADROOM_SECONDS,
-         no_path_seconds: float = NO_PATH_SECONDS, progress: Optional[Progress] = None) -> Certificate:
-    """Plans through the case's query and proves the path: `taut plan`.
+         no_path_seconds: float = NO_PATH_SECONDS, speed_share: float = 1.0, greatest_speed: bool = False,
+         progress: Optional[Progress] = None) -> Certificate:
+    """Plans through the case's query and proves the path: `taut plan`. In a case with the key `time` it is a move.
 
     Where the search finds no path, it tries to prove that none exists: then the verdict is "no path".
 
@@ -378,14 +482,19 @@ def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] =
     :param max_check_seconds: time limit of the checker, after which the certificate is unchecked
     :param headroom_seconds: time limit for Certificate.headroom; 0: it is not sought
     :param no_path_seconds: time limit for proving that no path exists; 0: that is not tried
+    :param speed_share: run a move at this share of the planned speed, from 0.001 to 1, or slower where that is not
+        proved
+    :param greatest_speed: run a move's law as fast as that is proved, and seek what stands in the way of more
     """
     return Certificate._of(_taut.plan(case._case, budget_seconds, _file(atlas), _file(save_atlas), grow, signing_key,
-                                      max_check_seconds, headroom_seconds, no_path_seconds, progress))
+                                      max_check_seconds, headroom_seconds, no_path_seconds, speed_share,
+                                      greatest_speed, progress))
 
 
 def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optional[str] = None,
-          half_turns: Optional[ArrayLike] = None, times: Sequence[Union[float, str]] = (), max_bits: int = 4096,
-          signing_key: str = "", max_check_seconds: float = CHECK_SECONDS) -> Certificate:
+          half_turns: Optional[ArrayLike] = None, times: Sequence[Union[float, str]] = (),
+          timing: Optional[TimeLaw] = None, max_bits: int = 4096, signing_key: str = "",
+          max_check_seconds: float = CHECK_SECONDS) -> Certificate:
     """Proves a path of yours, bit for bit.
 
     Stops at the first violation found, or at the first piece that is undecided; audit() reports all of them.
@@ -398,12 +507,14 @@ def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optio
                          refined, selects one
     :param half_turns: (n, columns): parameters are exactly waypoints + π half_turns; only for periodic parameters
     :param times: [s], ascending; not part of any claim
+    :param timing: proves a move in time, of "straight" or "spline", in a case with the key `time`; None: the path is
+        passed slowly
     """
     if isinstance(waypoints, Path):
-        if interpolation is not None or half_turns is not None or len(times) > 0:
-            raise TypeError("a Path has its interpolation, half_turns and times itself")
+        if interpolation is not None or half_turns is not None or len(times) > 0 or timing is not None:
+            raise TypeError("a Path has its interpolation, half_turns, times and timing itself")
         interpolation, half_turns, times = waypoints.interpolation, waypoints.half_turns, waypoints.times
-        waypoints = waypoints.waypoints
+        waypoints, timing = waypoints.waypoints, waypoints.timing
     x = _floats(waypoints, "waypoints")
     turns = None
     if half_turns is not None:
@@ -411,8 +522,11 @@ def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optio
         if turns.shape != x.shape:
             raise InputError(f"half_turns: got the shape {turns.shape}, expected that of the waypoints, {x.shape}",
                              field="half_turns")
+    law = None
+    if timing is not None:
+        law = (timing.step_s, np.asarray(timing.controls).astype(np.float64, casting="safe"))
     return Certificate._of(_taut.prove(case._case, interpolation or "straight", x, turns, [_decimal(t) for t in times],
-                                       max_bits, signing_key, max_check_seconds))
+                                       law, max_bits, signing_key, max_check_seconds))
 
 
 def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], ArrayLike] = None, *,
@@ -421,6 +535,8 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
           max_check_seconds: float = CHECK_SECONDS, headroom_seconds: float = HEADROOM_SECONDS,
           progress: Optional[Progress] = None) -> Certificate:
     """Proves a path, or lists every stretch that is not proved, with the reason: `taut audit`.
+
+    The path is passed slowly, also where the case limits moves.
 
     :param path: a path file or a certificate.json (docs/audits.md); None: the one that the case names; a mapping from
         columns to arrays, {"phi[deg]": …, "theta[deg]": …}; or an array (n, columns)

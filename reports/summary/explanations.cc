@@ -199,10 +199,11 @@ Explanation explained(ErrorCode code) {
           "that is right.",
           "taut: crane.yaml:38:9: load.mass: got 'NaN', expected a decimal number such as 0.05 or 1e-4 [E3]");
     case ErrorCode::kPath:
-      return entry("The path file is wrong", "The path to be audited can't be read, or does not fit the case.",
+      return entry("The path file is wrong",
+                   "The path to be audited, or the table of measurements, can't be read, or does not fit the case.",
                    "A column without a unit or with an unknown name. A row with a missing number. Lengths "
                    "whose first row is not at the start pose.",
-                   "docs/audits.md describes the formats of path files.",
+                   "docs/audits.md describes the formats of path files, docs/monitor.md that of measurements.",
                    "taut: path.csv:2: theta: got 'x', expected a decimal number such as 0.05 or 1e-4 [E4]");
     case ErrorCode::kCertificate:
       return entry(

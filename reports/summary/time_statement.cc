@@ -129,7 +129,15 @@ std::string time_limits_text(const TimeText& time, const DisplayUnits& units) {
                                       {{RateKind::kLoadAngularSpeed, "angular speed"},
                                        {RateKind::kLoadAngularAcceleration, "angular acceleration"}},
                                       units));
-  return fmt::format("In time: {}.", fmt::join(parts, "; "));
+  std::string text = fmt::format("In time: {}.", fmt::join(parts, "; "));
+  if (time.stopping_time_s) {
+    text += fmt::format(
+        " The move may be run slower, stopped and started again anywhere: from full speed to rest in {} s or more.",
+        is_plain_decimal(*time.stopping_time_s)
+            ? *time.stopping_time_s
+            : fmt::format("{:.6g}", evaluate_constant<double>(*time.stopping_time_s)));
+  }
+  return text;
 }
 
 std::string inertia_text(const LoadText& load) {

@@ -560,5 +560,13 @@ TEST(KernelMoving, ThatKMayGrowIsNotClaimed) {
   EXPECT_GT(proved, 5);
 }
 
+TEST(KernelMoving, TakesNothingForAConstantWhoseDerivativesVanishAtAPoint) {
+  const SecondJet q(Ball(), Ball(1), Ball());
+  EXPECT_THROW((void)apply(Function::kSqrt, power(q, 4)), Undefined) << "it is q^2, and bends";
+  EXPECT_THROW((void)apply(Function::kAsin, SecondJet(Ball(1)) - power(q, 4)), Undefined);
+  EXPECT_THROW((void)atan2(power(q, 3), SecondJet(Ball(-1))), Undefined);
+  EXPECT_NO_THROW((void)apply(Function::kSqrt, SecondJet(Ball()) - SecondJet(Ball())));
+}
+
 }  // namespace
 }  // namespace taut::checker
