@@ -1119,6 +1119,216 @@ def clearances():
         'at': {'waypoint': 1}, 'weights': nearest_of_cables(scene, 4, 5)})
 
 
+# ---- moves in time --------------------------------------------------------------------------------------------------
+
+LIFTED = {'point_m': ['0', '0', '0.01'], 'gravity_m_s2': ['0', '0', '9.81'], 'items': [
+    {'name': 'payload', 'weight': {'mass_kg': ['0.58', '0.6'], 'at_m': ['0.002', '0', '0.03'],
+                                   'at_tolerance_m': '0.0005', 'inertia_box_m': ['0.2', '0.1', '1/12']}},
+    {'name': 'hook', 'weight': {'mass_kg': ['0.01', '0.01'], 'at_m': ['0', '-0.001', '0'], 'at_tolerance_m': '0'}},
+    {'name': 'wind', 'force': {'disc': {'radius': '0.005', 'normal': ['0', '0', '1']}, 'axes': 'W',
+                               'at_m': ['0', '0', '0.02']}},
+    {'name': 'tool', 'moment': {'segment': {'direction': ['0', '0', '1'], 'range': ['0', '0.0005']}, 'axes': 'P'}}]}
+
+
+def law(step, places, pieces):
+    """From rest to rest between places of the path, so many pieces for each way."""
+    smooth = lambda x: x * x * x * (10 + x * (6 * x - 15))
+    controls = [places[0]] * 3
+    for a, b in zip(places, places[1:]):
+        ways = pieces - 2
+        controls += [a + (b - a) * round(2**16 * smooth(k / ways)) / 2**16 for k in range(1, ways)] + [b] * 3
+    return {'controls': [hex64(c) for c in controls], 'step_s': hex64(step)}
+
+
+def in_law(timing, samples):
+    """(sigma, sigma', sigma'') at times of each piece."""
+    h, c = float.fromhex(timing['step_s']), [float.fromhex(x) for x in timing['controls']]
+    for j in range(len(c) - 3):
+        a = [(c[j] + 4 * c[j + 1] + c[j + 2]) / 6, (c[j + 2] - c[j]) / 2, (c[j] - 2 * c[j + 1] + c[j + 2]) / 2,
+             (c[j + 3] - 3 * c[j + 2] + 3 * c[j + 1] - c[j]) / 6]
+        for n in range(samples + 1):
+            u = n / samples
+            yield (a[0] + u * (a[1] + u * (a[2] + u * a[3])), (a[1] + u * (2 * a[2] + u * 3 * a[3])) / h,
+                   (2 * a[2] + 6 * u * a[3]) / h**2)
+
+
+class Moment:
+    """A place of a move, and how fast it passes there: quotients of differences along the segment."""
+
+    def __init__(self, pr, pa, z, rate, change):
+        self.pr = pr
+        k = min(int(z), len(pa['waypoints']) - control_points(pa))
+        self.h = 1e-4
+        self.frames = [frame(pr, parameters(pr, pa, k, z - k + e * self.h)) for e in (-1, 0, 1)]
+        self.rate, self.change = rate, change
+
+    def by_time(self, values):
+        """The first and the second derivative of what has these three values."""
+        before, now, after = values
+        first, second = (after - before) / (2 * self.h), (before - 2 * now + after) / self.h**2
+        return first * self.rate, second * self.rate**2 + first * self.change
+
+    def point(self, x):
+        """Velocity and acceleration of a point of the platform."""
+        at = [plus(p, applied(R, x)) for p, R in self.frames]
+        return [list(v) for v in zip(*(self.by_time(values) for values in zip(*at)))]
+
+    def length(self, i):
+        return self.by_time([geometry(self.pr, f)[1][i] for f in self.frames])
+
+    def spin(self):
+        """Of the rotation: half the sum of e x e' and of e x e'' over the columns e of R."""
+        result, of_origin = [[0.0] * 3, [0.0] * 3], self.point([0, 0, 0])
+        for x in ((1, 0, 0), (0, 1, 0), (0, 0, 1)):
+            e = applied(self.frames[1][1], x)
+            result = [plus(so_far, cross(e, plus(v, o, -1)), 0.5)
+                      for so_far, v, o in zip(result, self.point(x), of_origin)]
+        return result
+
+    def rates(self):
+        """Of each kind of witness: the magnitude, of winches those of the six."""
+        lengths = [self.length(i) for i in range(6)]
+        load, spin = self.point([float(x) for x in self.pr['load']['point_m']]), self.spin()
+        return {'winch_speed': [abs(v) for v, _ in lengths], 'winch_acceleration': [abs(a) for _, a in lengths],
+                'load_speed': size(load[0]), 'load_acceleration': size(load[1]),
+                'load_angular_speed': size(spin[0]), 'load_angular_acceleration': size(spin[1])}
+
+    def wrench(self, weight, c):
+        """What the cables have to hold of 1 kg in motion: a box has the inertia of particles at its corners."""
+        gravity = [float(x) for x in self.pr['load']['gravity_m_s2']]
+        sides = evaluate({'constants': {}, 'parameters': []}, weight.get('inertia_box_m', ['0'] * 3), [])
+        point, total = [float(x) for x in self.pr['load']['point_m']], [0.0] * 6
+        for corner in range(8):
+            at = [x + (1 if corner >> n & 1 else -1) * s / sqrt(12) for n, (x, s) in enumerate(zip(c, sides))]
+            force = [(g - a) / 8 for g, a in zip(gravity, self.point(at)[1])]
+            arm = applied(self.frames[1][1], plus(at, point, -1))
+            total = plus(total, force + cross(arm, force))
+        return total
+
+    def extremes(self):
+        """The least and the largest tension of each cable."""
+        columns, _ = geometry(self.pr, self.frames[1])
+        inverse, _ = solve([[columns[j][i] for j in range(6)] for i in range(6)],
+                           [[float(i == j) for j in range(6)] for i in range(6)])
+        R, point = self.frames[1][1], [float(x) for x in self.pr['load']['point_m']]
+        sums = [[0.0, 0.0] for _ in range(6)]
+        for item in self.pr['load']['items']:
+            if 'weight' in item:
+                weight, at = item['weight'], [float(x) for x in item['weight']['at_m']]
+                offset = float(weight['at_tolerance_m'])
+                middle = self.wrench(weight, at)
+                sides = [plus(self.wrench(weight, plus(at, o, offset)), middle, -1)
+                         for o in ((1, 0, 0), (0, 1, 0), (0, 0, 1))] if offset else []
+                seen = [[float(m) * (inner(row, middle) + e * size([inner(row, o) for o in sides]))
+                         for m in weight['mass_kg'] for e in (1, -1)] for row in inverse]
+            elif 'force' in item:
+                arm = applied(R, plus([float(x) for x in item['force']['at_m']], point, -1))
+                to_force = lambda row: plus(row[:3], cross(row[3:], arm))
+                radius = float(item['force']['disc']['radius'])
+                seen = [[e * radius * size(to_force(row)[:2]) for e in (1, -1)] for row in inverse]
+            else:
+                axis = applied(R, [float(x) for x in item['moment']['segment']['direction']])
+                seen = [[float(m) * inner(row[3:], axis) for m in item['moment']['segment']['range']]
+                        for row in inverse]
+            sums = [[low + min(s), high + max(s)] for (low, high), s in zip(sums, seen)]
+        return sums
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def seen_of(pr, pa, samples=3):
+    """(place, moment, extremes of tensions) of all the move, or, with a stopping time, the corners of how it may be
+    run."""
+    stop = pr['time'].get('stopping_time_s')
+    for z, rate, change in in_law(pa['timing'], samples):
+        speeds = [(rate, change)]
+        if stop is not None:
+            more = rate / float(stop)
+            changes = min(0.0, change) - more, max(0.0, change) + more
+            speeds = [(r, c) for r in (0.0, rate) for c in changes]
+        for speed in speeds:
+            at = Moment(pr, pa, z, *speed)
+            yield z, at, at.extremes()
+
+
+UNITS = {'winch_speed': 'm_s', 'winch_acceleration': 'm_s2', 'winch_power': 'W', 'load_speed': 'm_s',
+         'load_acceleration': 'm_s2', 'load_angular_speed': 'rad_s', 'load_angular_acceleration': 'rad_s2'}
+
+
+def limits_of(seen, above):
+    """Limits of every kind that are a little above what the move needs; of power, of the greatest speed at a place."""
+    larger = lambda x, y: list(map(max, x, y)) if isinstance(x, list) else max(x, y)
+    most, at_place = {}, {}
+    for z, at, tensions in seen:
+        rates, greatest = at.rates(), [high for _, high in tensions]
+        most = {kind: larger(value, most.get(kind, value)) for kind, value in rates.items()}
+        both = rates['winch_speed'], greatest
+        at_place[z] = [larger(x, y) for x, y in zip(at_place.get(z, both), both)]
+    most['winch_power'] = [max(v[i] * t[i] for v, t in at_place.values()) for i in range(6)]
+    text = lambda x: '%.6e' % (above * x)
+    return {'%s_%s' % (kind, UNITS[kind]): [text(x) for x in value] if isinstance(value, list) else text(value)
+            for kind, value in most.items()}
+
+
+def lifted(name, query, **time):
+    pr = problem(name, (ROBOT2[0], LIFTED), FREE, query)
+    return dict(pr, time=dict(time))
+
+
+def proved_move(pr, pa, boxes, below=0.97, above=1.03):
+    """With limits of all kinds."""
+    seen = list(seen_of(pr, pa))
+    pr = dict(pr, time=dict(limits_of(seen, above), **pr['time']))
+    count = len(pa['waypoints']) - control_points(pa) + 1
+    least = [[math.inf, math.inf] for _ in range(count)]
+    for z, at, tensions in seen:
+        _, lengths = geometry(pr, at.frames[1])
+        tension = min(min(low - float(lo), float(hi) - high) for (low, high), (lo, hi) in
+                      zip(tensions, pr['robot']['tension_N']))
+        length = min(min(x - float(lo), float(hi) - x) for x, (lo, hi) in zip(lengths, pr['robot']['length_m']))
+        for k in {min(int(z), count - 1), min(max(math.ceil(z) - 1, 0), count - 1)}:
+            least[k] = [min(least[k][0], tension), min(least[k][1], length)]
+    assert all(m > 0 for both in least for m in both), (pr['name'], least)
+    segments = [segment(k, control_points(pa), (below * t, below * d, 1), boxes) for k, (t, d) in enumerate(least)]
+    return certificate(pr, pa, 'proved', segments=segments, version=6)
+
+
+def moves():
+    """Moves of Robot 2 with a load that has inertia."""
+    typed = lambda *points: [[str(x) for x in p] for p in points]
+    a, m, b = [0.0, 0.0, 0.3, 0.1, 0.05, 0.0], [0.01, 0.0, 0.305, 0.1, 0.1, 0.1], [0.015, -0.01, 0.3, 0.2, 0.1, 0.15]
+    curved = dict(spline(waypoint(a), waypoint(m), waypoint(b)), timing=law(0.25, [0, 4], 12))
+    yield 'move', proved_move(lifted('robot2-move', typed(a, b), stopping_time_s='1.5'), curved, 4)
+
+    corners = straight(waypoint(a), waypoint(m), waypoint(b))
+    corners['timing'] = law(0.125, [0, 1, 2], 8)
+    yield 'move_of_two_legs', proved_move(lifted('robot2-legs', typed(a, m, b)), corners, 4)
+
+    # The same way much faster, with one limit of each kind that it can't keep.
+    quick = dict(corners, timing=law(2**-6, [0, 1, 2], 8))
+    pr = lifted('robot2-too-fast', typed(a, m, b))
+    pr['time'] = limits_of(seen_of(pr, quick, 1), 0.75)
+    z, rate, change = max(in_law(quick['timing'], 1), key=lambda t: t[1])
+    assert 0 < z < 1 and z * 2**20 == int(z * 2**20), z
+    seen = Moment(pr, quick, z, rate, change).rates()['load_speed']
+    yield 'refuted_too_fast', certificate(pr, quick, 'refuted', version=6, witness={
+        'kind': 'load_speed', 'at': {'segment': 0, 's': str(Fraction(z))}, 'cable': None,
+        'value': ['%.6e' % (seen * 0.99999), '%.6e' % (seen * 1.00001)], 'limit': pr['time']['load_speed_m_s']})
+
+    # Only what has mass and moves makes a cable slack.
+    slack = lifted('robot2-slack', typed(a, m, b), load_speed_m_s='10')
+    low, i, z, moment = min(((low, i, z, at) for z, at, tensions in seen_of(slack, quick, 1)
+                             for i, (low, _) in enumerate(tensions)), key=lambda t: t[:3])
+    rest = Moment(slack, quick, z, 0.0, 0.0).extremes()[i][0]
+    assert rest > 0.15 and low < 0, (rest, low)
+    k = min(int(z), 1)
+    yield 'refuted_in_a_move', certificate(slack, quick, 'refuted', version=6, witness={
+        'kind': 'tension_min', 'at': {'segment': k, 's': str(Fraction(z - k))}, 'cable': i + 1,
+        'value': ['%.4f' % (low - 0.1), '%.4f' % (low + 0.1)], 'limit': '0.1'})
+
+
 # ---- files ----------------------------------------------------------------------------------------------------------
 
 def differences(kept, made, at=''):
@@ -1141,7 +1351,7 @@ def nearly_equal(a, b):
 def main(check):
     wrong, names = [], set()
     for topic in (in_parameters, other_angles, splines, implied, between_given_poses, tolerated, stretches,
-                  held_deviations, grazing, clearances):
+                  held_deviations, grazing, clearances, moves):
         for name, certificate in topic():
             names.add(name)
             file = os.path.join(BASES, name + '.json')

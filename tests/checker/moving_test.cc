@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "checker/kernel/box_proof.h"
+#include "checker/kernel/second_jet.h"
 #include "checker/witness.h"
 #include "tests/checker/kernel.h"
 #include "tests/support/moves.h"
