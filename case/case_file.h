@@ -53,7 +53,7 @@ struct Bound {
 /// The proved margins [N, m, 1, m]; the distance that the platform's origin travels [m] and the angle that the platform
 /// turns by [rad]; the planner's cost; counts; of a move the time that it takes [s].
 inline constexpr std::array<const char*, 12> kBoundQuantities = {
-    "tension_margin", "length_margin", "wrench_scale", "clearance_margin", "length",   "angle",
+    "tension_margin", "length_margin", "wrench_scale", "clearance_margin", "length",    "angle",
     "cost",           "segments",      "boxes",        "charts",           "stretches", "duration"};
 
 /// The path of a case that is to be audited instead of planned.

@@ -55,7 +55,8 @@ struct PathProof {
 /// The proof of a segment if it was made before, else null: so that a planner's proofs are not made twice.
 using KnownProof = std::function<const SegmentProof*(const Segment& segment)>;
 
-/// Verdict for the whole path, and if it has a law, for the move. A path of one waypoint is refuted if that is infeasible, else undecided ("no segment").
+/// Verdict for the whole path, and if it has a law, for the move. A path of one waypoint is refuted if that is
+/// infeasible, else undecided ("no segment").
 /// @throws InputError where the law is none of a move along this path (time_law.h)
 [[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known = {},
                                    const std::stop_token& stop = {}, ProofAim aim = ProofAim::kDecide);

@@ -4,7 +4,8 @@
 //
 // Where a proposal is not proved, its limits are tightened around the places where proofs failed, a few times; then the
 // whole move is slowed down evenly, until it is proved. A path that is proved at rest leaves something to every
-// tension, so that slow enough is always possible. If a law keeps all limits, one that is evenly slower keeps them, too,
+// tension, so that slow enough is always possible. If a law keeps all limits, one that is evenly slower keeps them,
+// too,
 // but for those of power, since what inertia takes goes with the square of the speed, and K is convex. It is proved
 // again all the same.
 #pragma once

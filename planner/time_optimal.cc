@@ -178,8 +178,8 @@ const TensionLoss* loss_near(const TimedPathProblem& problem, double s) {
   return &problem.tension_loss[static_cast<std::size_t>(std::clamp(place, 0.0, last))];
 }
 
-/// The u that rows leave for an x: empty where lower > upper. Where a move may be slowed down, u' and x' with u' between
-/// min(u, 0) − √x slowing and max(u, 0) + √x slowing, and x' from 0 to x, have to obey the rows, too.
+/// The u that rows leave for an x: empty where lower > upper. Where a move may be slowed down, u' and x' with u'
+/// between min(u, 0) − √x slowing and max(u, 0) + √x slowing, and x' from 0 to x, have to obey the rows, too.
 struct Range {
   double lower = -kInfinity, upper = kInfinity;
 };

@@ -33,8 +33,8 @@ enum class Dimension {
 /// The number of dimensions that have a unit in `units:`.
 inline constexpr std::size_t kDimensionsOfUnits = 6;
 
-/// A unit of known dimension: value in SI = value · factor / divisor, except that a degree is pi/180. All units but some
-/// of speeds have the divisor 1.
+/// A unit of known dimension: value in SI = value · factor / divisor, except that a degree is pi/180. All units but
+/// some of speeds have the divisor 1.
 struct Unit {
   Dimension dimension;
   std::string name;

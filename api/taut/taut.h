@@ -215,7 +215,8 @@ struct Place {
 
 /// A proved violation.
 struct Witness {
-  /// "tension_min", "tension_max", "length_min", "length_max", "singular" or "contact"; of a move also what is too fast,
+  /// "tension_min", "tension_max", "length_min", "length_max", "singular" or "contact"; of a move also what is too
+  /// fast,
   /// "winch_speed", "winch_acceleration", "winch_power", "load_speed", "load_acceleration", "load_angular_speed" or
   /// "load_angular_acceleration"
   std::string kind;

@@ -14,7 +14,8 @@
 // A winch's power is the greatest tension of its cable, of every load and deviation, times that speed of |d_i|, whose
 // magnitude counts: hoisting and lowering alike.
 // Where the problem states a stopping time T, the move may be run as z = σ(τ(t)), too, with τ' from 0 to 1 and |τ''| <=
-// 1/T. So ż = σ' τ', and z̈ = σ'' τ'^2 + σ' τ''. At one place all accelerations, w_in and hence every tension are affine
+// 1/T. So ż = σ' τ', and z̈ = σ'' τ'^2 + σ' τ''. At one place all accelerations, w_in and hence every tension are
+// affine
 // in (z̈, ż^2), speeds linear in ż, and the pairs (z̈, ż^2) lie in a rectangle that holds for the whole box: what keeps
 // its limits at its four corners keeps them inside, as limits are intervals and magnitudes convex.
 //

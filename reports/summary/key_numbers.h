@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers that a move is judged by: how near it comes to going slack, to the greatest tension and to the ends of
-// the cables, how near bodies come to their clearances, and by how much the loads could grow; of a move in time instead of
+// the cables, how near bodies come to their clearances, and by how much the loads could grow; of a move in time instead
+// of
 // the last how long it takes, and how much it uses of its limits of speed, acceleration and power. Page, terminal and
 // JSON have the same ones.
 #pragma once

@@ -272,7 +272,12 @@ export function lengthPanels(data) {
 
 const RATES = {
   winch_speed: { title: "speed", label: "speed", unit: (length) => `${length}/s`, isSigned: true },
-  winch_acceleration: { title: "acceleration", label: "acceleration", unit: (length) => `${length}/s²`, isSigned: true },
+  winch_acceleration: {
+    title: "acceleration",
+    label: "acceleration",
+    unit: (length) => `${length}/s²`,
+    isSigned: true,
+  },
   winch_power: { title: "power", label: "power", unit: () => "kW", factor: 1e-3, isSigned: false },
 };
 

@@ -1238,7 +1238,7 @@ def cross(a, b):
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
-def seen_of(pr, pa, samples=3):
+def seen_of(pr, pa, samples=6):
     """(place, moment, extremes of tensions) of all the move, or, with a stopping time, the corners of how it may be
     run."""
     stop = pr['time'].get('stopping_time_s')
@@ -1277,7 +1277,7 @@ def lifted(name, query, **time):
     return dict(pr, time=dict(time))
 
 
-def proved_move(pr, pa, boxes, below=0.97, above=1.03):
+def proved_move(pr, pa, boxes, below=0.95, above=1.06):
     """With limits of all kinds."""
     seen = list(seen_of(pr, pa))
     pr = dict(pr, time=dict(limits_of(seen, above), **pr['time']))
@@ -1300,11 +1300,11 @@ def moves():
     typed = lambda *points: [[str(x) for x in p] for p in points]
     a, m, b = [0.0, 0.0, 0.3, 0.1, 0.05, 0.0], [0.01, 0.0, 0.305, 0.1, 0.1, 0.1], [0.015, -0.01, 0.3, 0.2, 0.1, 0.15]
     curved = dict(spline(waypoint(a), waypoint(m), waypoint(b)), timing=law(0.25, [0, 4], 12))
-    yield 'move', proved_move(lifted('robot2-move', typed(a, b), stopping_time_s='1.5'), curved, 4)
+    yield 'move', proved_move(lifted('robot2-move', typed(a, b), stopping_time_s='1.5'), curved, 16)
 
     corners = straight(waypoint(a), waypoint(m), waypoint(b))
     corners['timing'] = law(0.125, [0, 1, 2], 8)
-    yield 'move_of_two_legs', proved_move(lifted('robot2-legs', typed(a, m, b)), corners, 4)
+    yield 'move_of_two_legs', proved_move(lifted('robot2-legs', typed(a, m, b)), corners, 16)
 
     # The same way much faster, with one limit of each kind that it can't keep.
     quick = dict(corners, timing=law(2**-6, [0, 1, 2], 8))

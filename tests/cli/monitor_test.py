@@ -100,7 +100,8 @@ class Monitor(InFolder):
 
     def test_it_answers_at_once_on_a_pipe(self):
         with subprocess.Popen([TAUT, "monitor", self.proved, "--length-error", "0.001mm", "--position-error", "0.001mm",
-                               "--orientation-error", "1e-6"], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+                               "--orientation-error", "1e-6"],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
             def tell(text):
                 process.stdin.write(text.encode())
                 process.stdin.flush()

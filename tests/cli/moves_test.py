@@ -95,8 +95,8 @@ class Moves(InFolder):
         self.assertLess(greatest["refuted_share"], 1.01 * greatest["proved_share"])
         self.assertAlmostEqual(move["speed_share"], greatest["proved_share"], 9)
         said = " ".join(self.plan("--max-speed").split())
-        self.assertRegex(said, r"Greatest speed of this law: [\d.]+ % of what was planned is proved, [\d.]+ % is refuted: "
-                               r"on segment \d of the path ")
+        self.assertRegex(said, r"Greatest speed of this law: [\d.]+ % of what was planned is proved, "
+                               r"[\d.]+ % is refuted: on segment \d of the path ")
 
     def test_options_of_moves_need_one(self):
         for options in (["--timed"], ["--speed", "50%"], ["--max-speed"]):
