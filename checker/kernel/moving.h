@@ -76,7 +76,7 @@ void require_time_law(const Problem& problem, const Path& path);
 /// time.
 [[nodiscard]] std::vector<Speed> extreme_speeds(const Problem& problem, const Path& path, std::size_t k,
                                                 const Box& box);
-/// What holds at such a speed. @throws, @pre likewise
+/// What holds at such a speed, with the conditions of speed_by_law().
 [[nodiscard]] Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
                             const Box& box, const Speed& speed);
 
