@@ -185,6 +185,13 @@ SegmentProof Prover::prove(const Segment& segment, double clearance, const std::
   SegmentWalk walk(*this, segment, clearance, SegmentWalk::Extent::kToFirstFailure, stop, aim);
   SegmentProof proof = to_proof(walk.run());
   if (proof.verdict != Verdict::kUndecided || aim == ProofAim::kProve) return proof;
+  if (segment.timing != nullptr && problem_.time && problem_.time->stopping_time_s) {
+    // What refutes the law refutes the move that may be slowed down, too.
+    Problem by_law = problem_;
+    by_law.time->stopping_time_s.reset();
+    SegmentProof at_full_speed = Prover(by_law, options_).prove(segment, clearance, stop);
+    return at_full_speed.verdict == Verdict::kRefuted ? at_full_speed : proof;
+  }
   proof.witness = walk.refute_elsewhere();
   if (proof.witness) {
     proof.verdict = Verdict::kRefuted;

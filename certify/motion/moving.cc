@@ -39,6 +39,18 @@ LawRange<I> slowed(const LawRange<I>& law, const I& slowing) {
   return {law.rate * share, law.acceleration * share + law.rate * hull(-slowing, slowing)};
 }
 
+/// All magnitudes that are limited are convex in (s̈, ṡ²), or rise with ṡ: none is larger than at one of these.
+template <class I>
+std::vector<LawRange<I>> corners_of(const LawRange<I>& law) {
+  std::vector<LawRange<I>> corners;
+  for (const double rate : {0.0, upper_bound(law.rate)}) {
+    for (const double acceleration : {lower_bound(law.acceleration), upper_bound(law.acceleration)}) {
+      corners.push_back({I(rate), I(acceleration)});
+    }
+  }
+  return corners;
+}
+
 }  // namespace
 
 template <class I>
@@ -48,7 +60,11 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
   }
   const PathRates<I> path = rates_.at(segment, range);
   LawRange<I> law = law_range(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
-  if (speeds == Speeds::kAny && slowing_) law = slowed(law, *slowing_);
+  std::vector<LawRange<I>> corners = {law};
+  if (speeds == Speeds::kAny && slowing_) {
+    law = slowed(law, *slowing_);
+    corners = corners_of(law);
+  }
   Moving<I> result;
   result.r_WP = path.r_WP;
   result.rates = by_time(path, law.rate, law.acceleration);
@@ -56,27 +72,36 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
   const I one(1.0), none(0.0);
   result.by_law = {inertial_wrench(bodies_, path.r_WP, by_time(path, none, one)),
                    inertial_wrench(bodies_, path.r_WP, by_time(path, one, none)), law.acceleration, sqr(law.rate)};
+  result.winch_speed = winch_rates(model, path.p, path.r_WP, result.rates).speed;
 
-  const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, result.rates);
-  result.winch_speed = winches.speed;
   const Vector3<I> arm = turned(path.r_WP, model.p_PM);
   const auto norm = [](const Vector3<I>& v) { return euclidean_norm(v(0), v(1), v(2)); };
-  const auto rate = [&](const RateId& id) -> I {
+  const auto rate_of = [&](const RateId& id, const Rates<I>& rates, const WinchRates<I>& winches) -> I {
     const auto i = static_cast<std::size_t>(id.cable);
     switch (id.kind) {
       case RateKind::kWinchSpeed: return absolute(winches.speed[i]);
       case RateKind::kWinchAcceleration: return absolute(winches.acceleration[i]);
-      case RateKind::kLoadSpeed: return norm(velocity_at(result.rates, arm));
-      case RateKind::kLoadAcceleration: return norm(acceleration_at(result.rates, arm));
-      case RateKind::kLoadAngularSpeed: return norm(result.rates.angular_velocity);
+      case RateKind::kLoadSpeed: return norm(velocity_at(rates, arm));
+      case RateKind::kLoadAcceleration: return norm(acceleration_at(rates, arm));
+      case RateKind::kLoadAngularSpeed: return norm(rates.angular_velocity);
       case RateKind::kWinchPower: throw std::logic_error("a power without a tension");
       case RateKind::kLoadAngularAcceleration: break;
     }
-    return norm(result.rates.angular_acceleration);
+    return norm(rates.angular_acceleration);
   };
-  for (const Limit& limit : limits_) {
-    const I size = rate(limit.id);
-    result.margins.push_back({limit.id, size, limit.most - size});
+  for (const LawRange<I>& corner : corners) {
+    const Rates<I> rates = by_time(path, corner.rate, corner.acceleration);
+    const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, rates);
+    for (std::size_t n = 0; n < limits_.size(); ++n) {
+      const I size = rate_of(limits_[n].id, rates, winches);
+      const I value = limits_[n].most - size;
+      if (&corner == &corners.front()) {
+        result.margins.push_back({limits_[n].id, size, value});
+      } else {
+        result.margins[n].size = hull(result.margins[n].size, size);
+        result.margins[n].value = hull(result.margins[n].value, value);
+      }
+    }
   }
   return result;
 }

@@ -45,6 +45,7 @@ template <class I>
 struct Moving {
   Vector6<I> wrench;                   ///< w_in about P_m, axes of W [N, N m]
   InertiaByLaw<I> by_law;              ///< the same
+  /// Where the speed is any, all above the least value holds at the corners of (s̈, ṡ), which no other exceeds.
   std::vector<RateMargin<I>> margins;  ///< of all limits that the problem states, but for those of power
   std::array<I, kCables> winch_speed;  ///< L̇ [m/s]
   Matrix3<I> r_WP;

@@ -161,6 +161,7 @@ Json moving() {
   json["problem"]["load"] = load_of_items();
   json["problem"]["load"]["items"][0]["weight"]["inertia_box_m"] = {"1", "1/2", "0.25"};
   json["problem"]["time"] = limits_in_time();
+  json["path"]["times"] = nullptr;
   json["path"]["timing"] = {{"step_s", "0x1p-1"}, {"controls", numbers({0, 0, 0, 1, 1, 1, 2, 2, 2})}};
   json["claim"] = std::string(kProvedClaim) + kItemsClause + kMoveClause;
   return json;

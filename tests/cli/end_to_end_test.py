@@ -62,7 +62,7 @@ class EndToEnd(InFolder):
                 # The load as it was understood comes first, on two lines.
                 word = {"proved": "PROVED", "refuted": "REFUTED - DO NOT RUN",
                         "undecided": "(UNDECIDED - NO DECISION|NO PATH FOUND)", "no path": "NO PATH EXISTS"}[verdict]
-                bodies = r"(?:Bodies: .*\n(?: {8}.*\n)*)?"
+                bodies = r"(?:      Inertia counts .*\n)?(?:In time: .*\n)?(?:Bodies: .*\n(?: {8}.*\n)*)?"
                 self.assertRegex(planned.stdout, rf"\ALoad: .*\n      .*\n{bodies}{word}: ")
                 self.assertEqual(planned.stderr, "", "no progress where stderr is no terminal")
                 results = {"certificate.json"} | ({"report.html"} if is_reported else set())
