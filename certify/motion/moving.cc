@@ -72,7 +72,6 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
   const I one(1.0), none(0.0);
   result.by_law = {inertial_wrench(bodies_, path.r_WP, by_time(path, none, one)),
                    inertial_wrench(bodies_, path.r_WP, by_time(path, one, none)), law.acceleration, sqr(law.rate)};
-  result.winch_speed = winch_rates(model, path.p, path.r_WP, result.rates).speed;
 
   const Vector3<I> arm = turned(path.r_WP, model.p_PM);
   const auto norm = [](const Vector3<I>& v) { return euclidean_norm(v(0), v(1), v(2)); };
@@ -92,6 +91,7 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
   for (const LawRange<I>& corner : corners) {
     const Rates<I> rates = by_time(path, corner.rate, corner.acceleration);
     const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, rates);
+    result.winch_speed = winches.speed;  // in the end that of the fastest
     for (std::size_t n = 0; n < limits_.size(); ++n) {
       const I size = rate_of(limits_[n].id, rates, winches);
       const I value = limits_[n].most - size;

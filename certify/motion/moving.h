@@ -47,7 +47,7 @@ struct Moving {
   InertiaByLaw<I> by_law;              ///< the same
   /// Where the speed is any, all above the least value holds at the corners of (s̈, ṡ), which no other exceeds.
   std::vector<RateMargin<I>> margins;  ///< of all limits that the problem states, but for those of power
-  std::array<I, kCables> winch_speed;  ///< L̇ [m/s]
+  std::array<I, kCables> winch_speed;  ///< L̇ when the move is fastest [m/s]
   Matrix3<I> r_WP;
   Rates<I> rates;
 };

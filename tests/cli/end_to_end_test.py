@@ -66,7 +66,8 @@ class EndToEnd(InFolder):
                 self.assertRegex(planned.stdout, rf"\ALoad: .*\n      .*\n{bodies}{word}: ")
                 self.assertEqual(planned.stderr, "", "no progress where stderr is no terminal")
                 results = {"certificate.json"} | ({"report.html"} if is_reported else set())
-                results |= {"controller.csv", "path.csv"} if verdict == "proved" else set()
+                tables = {"winches.csv", "poses.csv", "poses.tum"} if "\ntime:" in text_of(case) else {"controller.csv"}
+                results |= tables | {"path.csv"} if verdict == "proved" else set()
                 results |= {"sphere.stl"} if "mesh: sphere.stl" in text_of(case) else set()
                 self.assertEqual(set(os.listdir(out)), results)
                 checked = run(CHECK, os.path.join(out, "certificate.json"), case)
