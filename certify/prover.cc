@@ -180,16 +180,28 @@ SegmentProof to_proof(SegmentSurvey survey) {
 
 }  // namespace
 
+namespace {
+
+bool may_stop(const Problem& problem, const Segment& segment) {
+  return segment.timing != nullptr && problem.time && problem.time->stopping_time_s;
+}
+
+/// The problem of a move that is run as its law says.
+Problem by_law(Problem problem) {
+  problem.time->stopping_time_s.reset();
+  return problem;
+}
+
+}  // namespace
+
 SegmentProof Prover::prove(const Segment& segment, double clearance, const std::stop_token& stop, ProofAim aim) const {
   if (!is_admissible(segment)) return to_proof(open_survey(segment.law, range_violation(segment)));
   SegmentWalk walk(*this, segment, clearance, SegmentWalk::Extent::kToFirstFailure, stop, aim);
   SegmentProof proof = to_proof(walk.run());
   if (proof.verdict != Verdict::kUndecided || aim == ProofAim::kProve) return proof;
-  if (segment.timing != nullptr && problem_.time && problem_.time->stopping_time_s) {
+  if (may_stop(problem_, segment)) {
     // What refutes the law refutes the move that may be slowed down, too.
-    Problem by_law = problem_;
-    by_law.time->stopping_time_s.reset();
-    SegmentProof at_full_speed = Prover(by_law, options_).prove(segment, clearance, stop);
+    SegmentProof at_full_speed = Prover(by_law(problem_), options_).prove(segment, clearance, stop);
     return at_full_speed.verdict == Verdict::kRefuted ? at_full_speed : proof;
   }
   proof.witness = walk.refute_elsewhere();
@@ -214,6 +226,7 @@ MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box,
 }
 
 MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {
+  if (may_stop(problem_, segment)) return Prover(by_law(problem_), options_).quantity_at_mid(segment, box, margin);
   const auto n = static_cast<std::size_t>(margin.cable);
   std::optional<MpInterval> quantity;
   for (std::size_t rung = 1; rung <= ladder_.last(); ++rung) {
@@ -236,6 +249,7 @@ MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box,
 }
 
 MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, RateId rate) const {
+  if (may_stop(problem_, segment)) return Prover(by_law(problem_), options_).quantity_at_mid(segment, box, rate);
   std::optional<MpInterval> quantity;
   for (std::size_t rung = 1; rung <= ladder_.last(); ++rung) {
     const PrecisionScope precision(ladder_.bits(rung));
