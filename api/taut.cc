@@ -34,6 +34,7 @@
 #include "checker/format/no_path.h"
 #include "checker/format/signature.h"
 #include "checker/kernel/errors.h"
+#include "kinematics/move_sampler.h"
 #include "kinematics/pose_conversion.h"
 #include "kinematics/time_limits.h"
 #include "path_io/controller_csv.h"
@@ -49,7 +50,6 @@
 #include "reports/summary/samples.h"
 #include "reports/summary/shown_bodies.h"
 #include "reports/summary/time_statement.h"
-#include "reports/summary/timed_sampler.h"
 
 namespace taut::v0 {
 
@@ -369,7 +369,6 @@ void require_seconds(double seconds, const char* field) {
 
 /// That what is asked of a move is possible, and the case's plans are moves.
 void require_move(const PlanOptions& options, const taut::Case& the_case, const std::string& file) {
-  constexpr double kLeastSpeed = 1e-3;
   const double share = options.speed_share;
   if (!(share >= kLeastSpeed && share <= 1)) {
     throw taut::InputError(fmt::format("speed_share: got {}, expected a number from {} to 1", share, kLeastSpeed),

@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "base/input_error.h"
+#include "kinematics/move_sampler.h"
 #include "kinematics/time_law.h"
 #include "problem/decimal.h"
 #include "problem/expression.h"
 #include "reports/summary/numbers.h"
-#include "reports/summary/timed_sampler.h"
 
 namespace taut {
 namespace {
@@ -204,7 +204,7 @@ PlaceTarget Monitor::target_of(const MeasuredRow& row) const {
   return target;
 }
 
-double Monitor::first_time(double s) const { return s <= 0 ? 0 : TimedSampler::time_of(*proved_.path.timing, s); }
+double Monitor::first_time(double s) const { return s <= 0 ? 0 : MoveSampler::time_of(*proved_.path.timing, s); }
 
 double Monitor::last_time(double s) const {
   const TimeLaw& law = *proved_.path.timing;

@@ -9,9 +9,9 @@
 
 #include "kinematics/geometry.h"
 #include "kinematics/loads.h"
+#include "kinematics/move_sampler.h"
 #include "problem/expression.h"
 #include "reports/summary/numbers.h"
-#include "reports/summary/timed_sampler.h"
 
 namespace taut {
 namespace {
@@ -178,7 +178,7 @@ WrenchTest::Inertia WrenchTest::inertia_at(const Path& path, const std::vector<d
   Wrench least = Wrench::Constant(std::numeric_limits<double>::infinity()), most = -least;
   Wrench least_by_law = least, most_by_law = most;
   for (const double s : places) {
-    const LawPoint law = at_time(*path.timing, TimedSampler::time_of(*path.timing, s));
+    const LawPoint law = at_time(*path.timing, MoveSampler::time_of(*path.timing, s));
     const auto k = std::min(static_cast<std::size_t>(std::max(s, 0.0)), path.segments() - 1);
     const PathRates<double> along = rates_->at(path.segment(k), s - static_cast<double>(k));
     const Rates<double> rates = by_time(along, law.rate, law.acceleration);

@@ -36,21 +36,6 @@ const DecimalText& limit_text(const Problem& problem, MarginId margin) {
   return problem.robot.length_m[cable].upper;
 }
 
-const ExpressionText& limit_text(const Problem& problem, RateId rate) {
-  const TimeText& time = problem.time.value();
-  const auto cable = static_cast<std::size_t>(rate.cable);
-  switch (rate.kind) {
-    case RateKind::kWinchSpeed: return time.winch_speed_m_s[cable].value();
-    case RateKind::kWinchAcceleration: return time.winch_acceleration_m_s2[cable].value();
-    case RateKind::kWinchPower: return time.winch_power_W[cable].value();
-    case RateKind::kLoadSpeed: return time.load_speed_m_s.value();
-    case RateKind::kLoadAcceleration: return time.load_acceleration_m_s2.value();
-    case RateKind::kLoadAngularSpeed: return time.load_angular_speed_rad_s.value();
-    case RateKind::kLoadAngularAcceleration: break;
-  }
-  return time.load_angular_acceleration_rad_s2.value();
-}
-
 PathWitness make_witness(const Prover& prover, const Segment& segment, const SegmentWitness& found,
                          const PathPoint& at) {
   PathWitness witness;
@@ -63,7 +48,7 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Seg
   const DyadicBox& box = found.box;
   if (found.rate) {
     witness.rate = found.rate;
-    witness.limit = limit_text(prover.problem(), *found.rate);
+    witness.limit = limit_of(prover.problem().time.value(), *found.rate);
     const MpInterval value = prover.quantity_at_mid(segment, box, *found.rate);
     witness.value_lower = value.lower().to_decimal(kWitnessDigits, MPFR_RNDD);  // certificates state the kernel's
     witness.value_upper = value.upper().to_decimal(kWitnessDigits, MPFR_RNDU);

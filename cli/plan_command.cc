@@ -41,8 +41,6 @@
 namespace taut {
 namespace {
 
-constexpr double kLeastSpeed = 1e-3;  ///< share that --speed takes
-
 /// A verdict in lower case, as scripts know it, and what is said of it.
 struct Said {
   std::string verdict;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <vector>
 
 #include "kinematics/model.h"
 #include "problem/problem.h"
@@ -69,5 +70,16 @@ struct RateId {
   int cable = 0;  ///< of winches
   bool operator==(const RateId&) const = default;
 };
+
+/// A limit that a problem states of a move.
+struct RateLimit {
+  RateId id;
+  ExpressionText text;  ///< SI
+  double value = 0;     ///< rounded
+};
+/// All of them, in the order of RateKind, and for winches of cables.
+[[nodiscard]] std::vector<RateLimit> rate_limits(const TimeText& time);
+/// The expression of one of them. @pre it is stated
+[[nodiscard]] const ExpressionText& limit_of(const TimeText& time, RateId id);
 
 }  // namespace taut

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <stdexcept>
 #include <vector>
 
 #include "base/input_error.h"
 #include "base/sanitize.h"
 #include "kinematics/move_sampler.h"
+#include "kinematics/pose_sampler.h"
 #include "kinematics/time_limits.h"
 
 namespace taut {
@@ -88,18 +90,21 @@ std::string head(const Problem& problem, const MoveRows& rows, double rate_Hz, s
 }  // namespace
 
 MoveRows move_rows(const Problem& problem, const Path& path, double rate_Hz) {
-  const MoveSampler moves(problem, path);
+  if (!is_in_time(problem, path)) throw std::logic_error("a table with times of a path without");
+  const MoveSampler moves(problem);
+  const PoseSampler poses(problem);
   MoveRows rows;
   Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
   for (const double t : times(path.timing.value(), rate_Hz)) {
-    const MoveSample now = moves.at(t);
+    const MoveSample now = moves.at_time(path, t);
+    RigidPose pose = poses.rigid_pose(path.segment(now.segment), now.s);
+    const std::array<double, kCables> lengths = cable_lengths(poses.model(), pose);
     auto& winches = rows.winches.emplace_back();
     winches[0] = t;
     auto into = winches.begin() + 1;
-    for (const auto* six : {&now.length, &now.winches.speed, &now.winches.acceleration}) {
+    for (const auto* six : {&lengths, &now.winches.speed, &now.winches.acceleration}) {
       into = std::ranges::copy(*six, into).out;
     }
-    RigidPose pose = now.pose;
     if (pose.q.dot(last) < 0) pose.q.coeffs() = -pose.q.coeffs();  // the same orientation, without a jump
     last = pose.q;
     rows.poses.push_back({t, pose.p(0), pose.p(1), pose.p(2), pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()});

@@ -20,9 +20,12 @@
 
 namespace taut {
 
+/// The least share of its planned speed at which a move may be asked for.
+inline constexpr double kLeastSpeed = 1e-3;
+
 /// What is asked of a move besides the limits.
 struct MoveRequest {
-  double speed_share = 1;             ///< of the planned speed, in (0, 1]
+  double speed_share = 1;             ///< of the planned speed, from kLeastSpeed to 1
   bool seeks_greatest_speed = false;  ///< how fast the law could be run
 };
 

@@ -43,9 +43,10 @@ LawRange<I> slowed(const LawRange<I>& law, const I& slowing) {
 template <class I>
 std::vector<LawRange<I>> corners_of(const LawRange<I>& law) {
   std::vector<LawRange<I>> corners;
-  for (const double rate : {0.0, upper_bound(law.rate)}) {
-    for (const double acceleration : {lower_bound(law.acceleration), upper_bound(law.acceleration)}) {
-      corners.push_back({I(rate), I(acceleration)});
+  const I none(0.0);
+  for (const I& rate : {none, I(law.rate.upper())}) {
+    for (const I& acceleration : {I(law.acceleration.lower()), I(law.acceleration.upper())}) {
+      corners.push_back({rate, acceleration});
     }
   }
   return corners;
@@ -69,9 +70,11 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
   result.r_WP = path.r_WP;
   result.rates = by_time(path, law.rate, law.acceleration);
   result.wrench = inertial_wrench(bodies_, path.r_WP, result.rates);
-  const I one(1.0), none(0.0);
-  result.by_law = {inertial_wrench(bodies_, path.r_WP, by_time(path, none, one)),
-                   inertial_wrench(bodies_, path.r_WP, by_time(path, one, none)), law.acceleration, sqr(law.rate)};
+  if (slowing_) {
+    const I one(1.0), none(0.0);
+    result.by_law = {inertial_wrench(bodies_, path.r_WP, by_time(path, none, one)),
+                     inertial_wrench(bodies_, path.r_WP, by_time(path, one, none)), law.acceleration, sqr(law.rate)};
+  }
 
   const Vector3<I> arm = turned(path.r_WP, model.p_PM);
   const auto norm = [](const Vector3<I>& v) { return euclidean_norm(v(0), v(1), v(2)); };

@@ -44,7 +44,7 @@ enum class Speeds { kOfLaw, kAny };
 template <class I>
 struct Moving {
   Vector6<I> wrench;       ///< w_in about P_m, axes of W [N, N m]
-  InertiaByLaw<I> by_law;  ///< the same
+  InertiaByLaw<I> by_law;  ///< the same; only where the move may be slowed down
   /// Where the speed is any, all above the least value holds at the corners of (s̈, ṡ), which no other exceeds.
   std::vector<RateMargin<I>> margins;  ///< of all limits that the problem states, but for those of power
   std::array<I, kCables> winch_speed;  ///< L̇ when the move is fastest [m/s]

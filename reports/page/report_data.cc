@@ -407,7 +407,7 @@ json winches(const ReportContext& scene) {
     std::array<std::vector<double>, kCables> columns;
     for (const PathSample& sample : scene.samples) {
       for (std::size_t i = 0; i < kCables; ++i) {
-        const TimedSample& at = *sample.in_time;
+        const MoveSample& at = *sample.in_time;
         columns[i].push_back(kind == RateKind::kWinchSpeed          ? at.winches.speed[i]
                              : kind == RateKind::kWinchAcceleration ? at.winches.acceleration[i]
                                                                     : at.winch_power[i]);

@@ -55,7 +55,7 @@ std::vector<PathSample> Sampler::along(const Path& path, std::size_t budget) con
     const std::size_t count = std::max(budget, std::size_t{2});
     for (std::size_t i = 0; i <= count; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(count);
-      TimedSample in_time = moves_->at_time(path, share * path.timing->duration_s());
+      MoveSample in_time = moves_->at_time(path, share * path.timing->duration_s());
       // A law's value at its ends is exact but for rounding.
       if (i == 0) in_time.place.s = 0;
       if (i == count) in_time.place.s = static_cast<double>(segments);

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "kinematics/move_sampler.h"
 #include "kinematics/pose_sampler.h"
 #include "kinematics/statics.h"
-#include "reports/summary/timed_sampler.h"
 
 namespace taut {
 
@@ -16,8 +16,8 @@ struct PathSample {
   double position = 0;
   std::vector<double> parameters;
   Pose<double> pose;
-  Statics<double> statics;             ///< of a move with the inertia of the load
-  std::optional<TimedSample> in_time;  ///< of a move
+  Statics<double> statics;            ///< of a move with the inertia of the load
+  std::optional<MoveSample> in_time;  ///< of a move
 };
 
 /// Evaluates poses and statics of one problem in floating point.
@@ -41,7 +41,7 @@ class Sampler {
   [[nodiscard]] PathSample pose_at(const Path& path, double position) const;
 
   PoseSampler poses_;
-  std::optional<TimedSampler> moves_;  ///< of a problem with limits in time
+  std::optional<MoveSampler> moves_;  ///< of a problem with limits in time
 };
 
 /// λ = x + π half_turns.

@@ -50,7 +50,7 @@ double Travel::at(const std::vector<double>& values, double position) const {
 
 std::optional<double> Travel::time_s(double position) const {
   if (timing_ && position >= segments_) return timing_->duration_s();
-  if (timing_) return position > 0 ? TimedSampler::time_of(*timing_, position) : 0;
+  if (timing_) return position > 0 ? MoveSampler::time_of(*timing_, position) : 0;
   if (times_s_.empty()) return std::nullopt;
   return interpolated(times_s_, position);
 }

@@ -14,7 +14,7 @@
 #include "base/input_error.h"
 #include "case/case_file.h"
 #include "kinematics/geometry.h"
-#include "reports/summary/timed_sampler.h"
+#include "kinematics/move_sampler.h"
 
 namespace taut {
 namespace {
@@ -180,7 +180,7 @@ class Machine {
   Path path_;
   std::mt19937 random_;
   Model<double> stated_, real_;
-  std::optional<TimedSampler> moves_;
+  std::optional<MoveSampler> moves_;
   ToleranceNumbers tolerances_;
   std::map<std::string, double> masses_;
   std::map<std::string, Vector> offsets_;

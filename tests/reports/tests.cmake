@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 foreach(header markup display_units samples scene travel report_data cable_use nearness key_numbers broken_limits
     bodies_statement body_distances load_statement style summary angles machine_picture shown_bodies worst_place
-    html_report theorem file_lines scope assurance_case lift_plan time_statement timed_sampler)
+    html_report theorem file_lines scope assurance_case lift_plan time_statement move_sampler)
   taut_add_test(reports ${header} LABELS unit LIBS taut::reports fmt::fmt OpenSSL::Crypto TOGETHER)
 endforeach()
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reports/summary/timed_sampler.h"
+#include "kinematics/move_sampler.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStep = 1e-4;  // [s], of differences
 
-class TimedSamples : public ::testing::Test {
+class MoveSamples : public ::testing::Test {
  protected:
   /// What differences of positions in time say: of a point of the platform.
   [[nodiscard]] Vector3<double> place(double t, const Vector3<double>& of_platform) const {
@@ -37,14 +37,14 @@ class TimedSamples : public ::testing::Test {
 
   Certificate certificate_ = sample::timed();
   PoseSampler poses_{certificate_.problem};
-  TimedSampler sampler_{certificate_.problem};
+  MoveSampler sampler_{certificate_.problem};
 };
 
-TEST_F(TimedSamples, HaveTheRatesOfDifferences) {
+TEST_F(MoveSamples, HaveTheRatesOfDifferences) {
   const Vector3<double> load_point = poses_.model().p_PM;
   double fastest = 0;
   for (const double t : {0.4, 1.1, 1.9, 2.7, 3.3, 4.6}) {
-    const TimedSample sample = sampler_.at_time(certificate_.path, t);
+    const MoveSample sample = sampler_.at_time(certificate_.path, t);
     EXPECT_EQ(sample.time_s, t);
     EXPECT_NEAR(sample.load_speed, velocity(t, load_point).norm(), 1e-7);
     EXPECT_NEAR(sample.load_acceleration, acceleration(t, load_point).norm(), 1e-5);
@@ -62,11 +62,11 @@ TEST_F(TimedSamples, HaveTheRatesOfDifferences) {
   EXPECT_GT(fastest, 1e-3) << "else nothing was compared";
 }
 
-TEST_F(TimedSamples, HaveTensionsThatMoveTheWeights) {
+TEST_F(MoveSamples, HaveTensionsThatMoveTheWeights) {
   // Σ f u = w − Σ m a, with the middle masses: 21 g and 10 g, and the force of 1 N upwards.
   double largest = 0;
   for (const double t : {0.4, 1.1, 2.9, 3.3}) {
-    const TimedSample sample = sampler_.at_time(certificate_.path, t);
+    const MoveSample sample = sampler_.at_time(certificate_.path, t);
     const Vector3<double> force = 0.021 * acceleration(t, {0, 0, -0.02}) + 0.01 * acceleration(t, {0.03, 0, 0});
     Vector3<double> carried(0, 0, 0);
     for (std::size_t i = 0; i < kCables; ++i) {
@@ -80,10 +80,10 @@ TEST_F(TimedSamples, HaveTensionsThatMoveTheWeights) {
   EXPECT_GT(largest, 1e-5) << "else nothing was compared";
 }
 
-TEST_F(TimedSamples, FindTheTimeOfAPlace) {
+TEST_F(MoveSamples, FindTheTimeOfAPlace) {
   const TimeLaw& law = *certificate_.path.timing;
   for (const double s : {0.01, 0.5, 1.3, 1.99}) {
-    EXPECT_NEAR(at_time(law, TimedSampler::time_of(law, s)).s, s, 1e-12);
+    EXPECT_NEAR(at_time(law, MoveSampler::time_of(law, s)).s, s, 1e-12);
     EXPECT_NEAR(sampler_.at_place(certificate_.path, s).place.s, s, 1e-12);
   }
 }
