@@ -127,7 +127,8 @@ MeasurementTable::Column MeasurementTable::column(std::string_view cell, const s
   Dimension dimension = Dimension::kLength;
   const bool is_numbered = name.size() == 2 && name[1] >= '1' && name[1] <= '6';
   const auto number = [&](std::string_view names) { return names.find(name[1]); };
-  if (name == "segment" || name == "s") return result;
+  const bool is_commanded_rate = is_numbered && (name[0] == 'v' || name[0] == 'a');
+  if (name == "segment" || name == "s" || is_commanded_rate) return result;
   if (name == "t" || name == "time") {
     result.role = Role::kTime;
     dimension = Dimension::kTime;
@@ -244,11 +245,10 @@ std::optional<MeasuredRow> MeasurementTable::read(std::string_view line, std::st
 }
 
 std::string MeasurementTable::columns() const {
-  std::vector<std::string> names;
-  for (const Column& column : columns_) {
-    if (column.role != Role::kIgnored) names.push_back(column.name);
-  }
-  return fmt::format("{}", fmt::join(names, ", "));
+  std::vector<std::string> names, left_out;
+  for (const Column& column : columns_) (column.role == Role::kIgnored ? left_out : names).push_back(column.name);
+  const std::string read = fmt::format("{}", fmt::join(names, ", "));
+  return left_out.empty() ? read : fmt::format("{} (left out: {})", read, fmt::join(left_out, ", "));
 }
 
 }  // namespace taut

@@ -52,14 +52,14 @@ class LineReader {
 class MeasurementTable {
  public:
   /// @param line  "t[s],L1[mm],L2[mm],…": names of docs/monitor.md, each once, with units in brackets or SI without;
-  /// commas, semicolons or tabs between; `segment` and `s`, of a table for a controller, are left out. @throws
+  /// commas, semicolons or tabs between; `segment`, `s`, `v1` and so on, of the planner's own tables, are left out. @throws
   /// InputError naming file and line.
   MeasurementTable(std::string_view line, const std::string& file, std::size_t number);
 
   /// One row; or what is wrong with it, in `complaint`. Its time has to be at or after the last good row's.
   [[nodiscard]] std::optional<MeasuredRow> read(std::string_view line, std::string& complaint);
 
-  /// "t, L1, L2": the columns, in order.
+  /// "t, L1, L2 (left out: v1)": the columns, in order.
   [[nodiscard]] std::string columns() const;
   [[nodiscard]] bool has_time() const { return has_time_; }
   [[nodiscard]] bool has_lengths() const { return lengths_ > 0; }

@@ -6,6 +6,7 @@ Usage: monitor_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
 import json
 import os
+import re
 import select
 import subprocess
 import tempfile
@@ -180,6 +181,58 @@ class Monitor(InFolder):
             said = run(TAUT, "monitor", self.proved, os.devnull, f"{option}={value}")
             self.assertEqual(said.returncode, 3)
             self.assertRegex(said.stderr, rf"{option}: got .* expected a .* of 0 or more.*\[E1\]")
+
+
+class MonitorOfAMove(InFolder):
+    """A move that a plan has written, and its own tables."""
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        out = os.path.join(cls.folder.name, "out")
+        case = os.path.join(CASES, "moves", "hexacrane.yaml")
+        planned = run(TAUT, "plan", case, "--out", out, "--no-report", "--headroom", "0")
+        assert planned.returncode == 0, planned.stderr
+        cls.proved = os.path.join(out, "certificate.json")
+        cls.tables = {name: text_of(os.path.join(out, name)) for name in ("winches.csv", "poses.csv")}
+
+    def monitor(self, text):
+        return run(TAUT, "monitor", self.proved, self.write("rows.csv", text), "--length-error", "0.001mm",
+                   "--position-error", "0.001mm", "--orientation-error", "1e-5")
+
+    def at(self, name, time):
+        """The table, with other times."""
+        lines = [line for line in self.tables[name].splitlines() if not line.startswith("#")]
+        rows = [line.split(",") for line in lines[1:]]
+        return "\n".join(lines[:1] + [",".join([repr(time(float(row[0])))] + row[1:]) for row in rows]) + "\n"
+
+    def test_its_own_tables_are_good(self):
+        for name, text in self.tables.items():
+            said = self.monitor(text)
+            self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+            self.assertIn("Monitoring a proved move of", said.stdout)
+            self.assertIn(" 0 alarms.", said.stdout)
+            self.assertIn("Against the law, rows are from", said.stdout)
+            self.assertEqual("(left out: v1, v2" in said.stdout, name == "winches.csv", said.stdout)
+
+    def test_a_slower_clock_lags_and_a_faster_one_is_told(self):
+        slower = self.monitor(self.at("winches.csv", lambda t: 1.25 * t + 7))
+        self.assertEqual(slower.returncode, 0, slower.stdout + slower.stderr)
+        behind = re.search(r"Against the law, rows are from ([\d.]+) s behind", slower.stdout)
+        self.assertGreater(float(behind.group(1)), 0.5)
+        for name in self.tables:
+            faster = self.monitor(self.at(name, lambda t: 0.9 * t))
+            self.assertEqual(faster.returncode, 1, faster.stdout + faster.stderr)
+            self.assertRegex(faster.stdout, r"ALARM row \d+, line \d+, t = [\d.]+ s, s = [\d.]+: ahead of the law")
+
+    def test_a_move_that_goes_back_is_told(self):
+        lines = [line for line in self.tables["winches.csv"].splitlines() if not line.startswith("#")]
+        rows = [line.split(",") for line in lines[1:]]
+        back = rows[: len(rows) // 2] + rows[len(rows) // 2 - 20 : len(rows) // 4 : -1]
+        text = "\n".join(lines[:1] + [",".join([repr(0.02 * k)] + row[1:]) for k, row in enumerate(back)]) + "\n"
+        said = self.monitor(text)
+        self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
+        self.assertIn(": backwards", said.stdout)
 
 
 if __name__ == "__main__":
