@@ -20,6 +20,8 @@ Headroom plan_headroom(const Case& the_case, const Plan& plan, const DecimalText
     path.tubes.clear();
   } else if (plan.proof.verdict == Verdict::kUndecided && plan.proof.open_segment < 0) {
     subject = Headroom::Subject::kStraightWay;
+  } else if (path.timing) {
+    subject = Headroom::Subject::kMove;
   }
   Headroom result = find_headroom(the_case.problem, path, plan.proof.verdict, wrench_scale, progress, budget.token());
   result.subject = subject;

@@ -104,7 +104,7 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
   nlohmann::json& illustration = certificate.illustration;
   illustration = illustrate(the_case.problem, planner.atlas(), plan.statistics);
   add_stated(illustration, the_case, decoration);
-  if (options.headroom_seconds > 0 && !stop.stop_requested() && !the_case.problem.time) {
+  if (options.headroom_seconds > 0 && !stop.stop_requested()) {
     const DecimalText wrench_scale = certificate.margins ? certificate.margins->wrench_scale : "";
     result.headroom =
         plan_headroom(the_case, plan, wrench_scale, options.headroom_seconds, options.headroom_progress, stop);

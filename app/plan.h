@@ -63,8 +63,8 @@ struct PlannedCaseOptions {
 };
 
 /// Plans, proves and has the checker prove the certificate again. Asked to stop before it is done with planning, it
-/// still has the best path so far checked. Of a move no headroom is sought, since none is claimed. Where the search
-/// found no path and it is proved that there is none, text and verdict are those of that proof.
+/// still has the best path so far checked. Where the search found no path and it is proved that there is none, text and
+/// verdict are those of that proof.
 /// @throws as Planner::plan(); std::logic_error where the checker rejects the certificate.
 [[nodiscard]] PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseOptions& options,
                                     const Progress& progress, const std::stop_token& stop);

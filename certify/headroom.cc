@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/input_error.h"
+#include "kinematics/move_sampler.h"
 #include "problem/decimal.h"
 
 namespace taut {
@@ -78,11 +79,13 @@ struct SegmentSamples {
 class Sampling {
  public:
   /// @param asked  the uncertainties of which shares are wanted
-  Sampling(const Prover& prover, const std::vector<Segment>& segments, std::vector<Uncertainty> asked)
+  Sampling(const Prover& prover, const Path& path, const std::vector<Segment>& segments, std::vector<Uncertainty> asked)
       : prover_(prover),
+        path_(path),
         segments_(segments),
         asked_(std::move(asked)),
         differentiator_(prover.problem(), !segments.empty() && prover.is_length_controlled(segments.front().law)) {
+    if (is_in_time(prover.problem(), path)) move_.emplace(prover.problem());
     constexpr std::size_t kSamples = 3000;  // of a path
     constexpr std::size_t kMostOfSegment = 48;
     per_segment_ = std::clamp<std::size_t>(kSamples / std::max<std::size_t>(1, segments.size()), 1, kMostOfSegment);
@@ -108,6 +111,11 @@ class Sampling {
  private:
   [[nodiscard]] RigidPose pose(std::size_t k, double s) const { return prover_.sampler().rigid_pose(segments_[k], s); }
 
+  [[nodiscard]] auto budgets(std::size_t k, double s, const RigidPose& at) const {
+    if (!move_) return differentiator_.budgets(at);
+    return differentiator_.budgets(at, move_->at_place(path_, static_cast<double>(k) + s).inertial_wrench);
+  }
+
   [[nodiscard]] SegmentSamples sample(std::size_t k) const {
     SegmentSamples result;
     result.least.assign(asked_.size(), kInfinite);
@@ -116,7 +124,7 @@ class Sampling {
       const double s = static_cast<double>(i) / static_cast<double>(per_segment_);
       const RigidPose at = pose(k, s);
       const double determinant = prover_.sampler().statics(at).determinant;
-      const auto budgets = differentiator_.budgets(at);
+      const auto budgets = this->budgets(k, s, at);
       if (!budgets || determinant * last_determinant < 0 || is_as_good_as_singular(*budgets)) {
         result.least.assign(asked_.size(), 0);
         result.tightness = -kInfinite;
@@ -147,7 +155,7 @@ class Sampling {
     for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
       for (const double s : {place.s - step, place.s + step}) {
         if (s < 0 || s > 1) continue;
-        const auto budgets = differentiator_.budgets(pose(place.segment, s));
+        const auto budgets = this->budgets(place.segment, s, pose(place.segment, s));
         if (!budgets) continue;
         const auto same = std::ranges::find_if(*budgets, [&](const auto& b) { return b.id == place.budget.id; });
         if (tightness(*same) < tightness(place.budget)) {
@@ -161,9 +169,11 @@ class Sampling {
   }
 
   const Prover& prover_;
+  const Path& path_;
   const std::vector<Segment>& segments_;
   std::vector<Uncertainty> asked_;
   MarginDifferentiator differentiator_;
+  std::optional<MoveSampler> move_;  ///< where inertia counts
   std::size_t per_segment_ = 1;
   std::vector<SegmentSamples> result_;
 };
@@ -260,9 +270,9 @@ double rounded_down(double x) { return x > 0 ? std::nextafter(x * (1 - 1e-15), 0
 /// One uncertainty of one path.
 class Search {
  public:
-  Search(const Problem& problem, const std::vector<Segment>& segments, const Sampling& sampling, Verdict verdict,
-         const std::stop_token& stop)
-      : problem_(problem), segments_(segments), sampling_(sampling), verdict_(verdict), stop_(stop) {}
+  Search(const Problem& problem, const Path& path, const std::vector<Segment>& segments, const Sampling& sampling,
+         Verdict verdict, const std::stop_token& stop)
+      : problem_(problem), path_(path), segments_(segments), sampling_(sampling), verdict_(verdict), stop_(stop) {}
 
   [[nodiscard]] ProvableShare find(const Uncertainty& of) const {
     ProvableShare result{of, size_of(problem_, of.kind)};
@@ -286,16 +296,16 @@ class Search {
   }
 
   /// Whether the nominal machine is provable, and what refutes it.
-  void examine_nominal(const Path& path, Headroom& result) const {
+  void examine_nominal(Headroom& result) const {
     const Prover nominal(with_uncertainty_scaled(problem_, UncertaintyKind::kAll, Decimal::parse("0")));
     result.nominal_provable = true;
     for (std::size_t k = 0; k < segments_.size() && !stop_.stop_requested(); ++k) {
       const SegmentProof proof = nominal.prove(segments_[k], 0, stop_);
       if (proof.verdict == Verdict::kProved) continue;
       result.nominal_provable = false;
-      if (!proof.witness) continue;
+      if (!proof.witness || proof.witness->rate) continue;
       result.nominal_violation = path_witness(nominal, segments_[k], static_cast<int>(k), *proof.witness);
-      if (path.segments() == 0) result.nominal_violation->at.on_segment = false;
+      if (path_.segments() == 0) result.nominal_violation->at.on_segment = false;
       return;
     }
     if (stop_.stop_requested()) result.nominal_provable.reset();
@@ -304,10 +314,11 @@ class Search {
  private:
   [[nodiscard]] std::vector<double> guesses_of(const Problem& problem, const Uncertainty& of) const {
     const Prover prover(problem);
-    return Sampling(prover, segments_, {of}).guesses(of);
+    return Sampling(prover, path_, segments_, {of}).guesses(of);
   }
 
   const Problem& problem_;
+  const Path& path_;
   const std::vector<Segment>& segments_;
   const Sampling& sampling_;
   Verdict verdict_;
@@ -342,7 +353,7 @@ std::vector<Uncertainty> sought(const Problem& problem, Verdict verdict, bool le
 std::optional<TightPlace> tightest_place(const Problem& problem, const Path& path) {
   const Prover prover(problem);
   const std::vector<Segment> segments = segments_of(prover, path);
-  return Sampling(prover, segments, {}).tightest();
+  return Sampling(prover, path, segments, {}).tightest();
 }
 
 Headroom find_headroom(const Problem& problem, const Path& path, Verdict verdict, const DecimalText& wrench_scale,
@@ -354,14 +365,14 @@ Headroom find_headroom(const Problem& problem, const Path& path, Verdict verdict
     return result;
   }
   const std::vector<Uncertainty> kinds = sought(problem, verdict, prover.is_length_controlled(path.interpolation));
-  const Sampling sampling(prover, segments, kinds);
+  const Sampling sampling(prover, path, segments, kinds);
   result.tightest = sampling.tightest();
-  // The margin scales K. With items that is something else: the two tolerances of a weight multiply.
+  // The margin scales K. With items that is something else: the two tolerances of a weight multiply. (A move has items.)
   if (verdict == Verdict::kProved && !problem.tolerances && problem.load.items.empty() && !wrench_scale.empty()) {
     result.shares = {{UncertaintyKind::kAll, 1, wrench_scale, rounded_down(number(wrench_scale))}};
     return result;
   }
-  const Search search(problem, segments, sampling, verdict, stop);
+  const Search search(problem, path, segments, sampling, verdict, stop);
   result.shares.resize(kinds.size());
   std::mutex reporting;
   std::size_t done = 0;
@@ -371,7 +382,7 @@ Headroom find_headroom(const Problem& problem, const Path& path, Verdict verdict
       result.free_ends = find_free_ends(prover, segments, stop);
     } else {
       result.shares[i] = search.find(kinds[i]);
-      if (i == 0 && result.shares[0].is_complete && result.shares[0].share == "0") search.examine_nominal(path, result);
+      if (i == 0 && result.shares[0].is_complete && result.shares[0].share == "0") search.examine_nominal(result);
     }
     const std::scoped_lock lock(reporting);
     if (progress) progress(++done, tasks);

@@ -36,15 +36,15 @@ struct TightPlace {
 };
 
 struct Headroom {
-  /// What the shares are about: the path; a single waypoint of the query; or, where a planner found no path, the
-  /// straight way through the query's waypoints.
-  enum class Subject { kPath, kWaypoint, kStraightWay };
+  /// What the shares are about: the path; a single waypoint of the query; where a planner found no path, the straight
+  /// way through the query's waypoints; or a move, by its law.
+  enum class Subject { kPath, kWaypoint, kStraightWay, kMove };
   Subject subject = Subject::kPath;
   std::size_t waypoint = 0;              ///< of the query; only of kWaypoint
   std::vector<ProvableShare> shares;     ///< kAll first; none of a proved path where nothing is uncertain
   std::optional<TightPlace> tightest;    ///< nothing of a path without samples
   std::optional<bool> nominal_provable;  ///< where no share of all is provable: whether the nominal machine alone is
-  std::optional<PathWitness> nominal_violation;  ///< what refutes the nominal machine, proved
+  std::optional<PathWitness> nominal_violation;  ///< what refutes the nominal machine, proved; no limit of a rate
   std::optional<ProvedFreeEnds> free_ends = {};  ///< of an unproved path: what lets it be proved
 };
 
@@ -59,7 +59,7 @@ inline constexpr ProofOptions kTrial = {.max_bits = 128,
 /// How many shares were sought, of how many. Calls don't overlap.
 using HeadroomProgress = std::function<void(std::size_t done, std::size_t all)>;
 
-/// Where on the path the least is left of a margin.
+/// Where on the path the least is left of a margin. Of a move, what inertia takes is taken off.
 [[nodiscard]] std::optional<TightPlace> tightest_place(const Problem& problem, const Path& path);
 
 /// Seeks the largest provable share of all uncertainties and of each alone, to within some 3 %, by bisection around

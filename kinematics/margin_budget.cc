@@ -369,8 +369,10 @@ MarginDifferentiator::MarginDifferentiator(const Problem& problem, bool length_c
 MarginDifferentiator::~MarginDifferentiator() = default;
 
 std::optional<std::array<MarginBudget, std::size_t{4} * kCables>> MarginDifferentiator::budgets(
-    const RigidPose& pose) const {
-  const Statics<Inner<double>> at = statics_at(data_->model, pose);
+    const RigidPose& pose, const Vector6<double>& inertial_wrench) const {
+  Model<Inner<double>> model = data_->model;
+  for (int k = 0; k < 6; ++k) model.wrench(k).value -= inertial_wrench(k);
+  const Statics<Inner<double>> at = statics_at(model, pose);
   if (!at.regular) return std::nullopt;
   std::optional<LengthControl<double>> control;
   if (data_->length_controlled) {
@@ -381,8 +383,8 @@ std::optional<std::array<MarginBudget, std::size_t{4} * kCables>> MarginDifferen
   const std::vector<std::vector<double>> item_losses = data_->item_losses(pose);
   std::size_t n = 0;
   for (const MarginId id : all_margins()) {
-    const Budget<double> found = budget(data_->model, at, data_->sizes, control, id);
-    result[n] = {id, found.quantity, limit_of(data_->model, id), found.nominal, found.loss};
+    const Budget<double> found = budget(model, at, data_->sizes, control, id);
+    result[n] = {id, found.quantity, limit_of(model, id), found.nominal, found.loss};
     for (std::size_t k = 0; k < item_losses.size(); ++k) {
       result[n].loss_by_item.emplace_back(data_->deviating[k].first, item_losses[k][n]);
     }

@@ -75,7 +75,9 @@ class MarginDifferentiator {
   MarginDifferentiator& operator=(const MarginDifferentiator&) = delete;
 
   /// All margins at a pose; of a singular pose nothing.
-  [[nodiscard]] std::optional<std::array<MarginBudget, std::size_t{4} * kCables>> budgets(const RigidPose& pose) const;
+  /// @param inertial_wrench  what a load in motion takes of the tensions, as MoveSample has it
+  [[nodiscard]] std::optional<std::array<MarginBudget, std::size_t{4} * kCables>> budgets(
+      const RigidPose& pose, const Vector6<double>& inertial_wrench = Vector6<double>::Zero()) const;
 
   /// The derivatives of what is left of a margin at a pose, by every parameter that the case states: w0 and the
   /// load point where there is an ellipsoid, masses of items. What tolerances take is differentiated, too. The pose

@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<const char*, 3> kSubjects = {"path", "waypoint", "straight way"};
+constexpr std::array<const char*, 4> kSubjects = {"path", "waypoint", "straight way", "move"};
 
 // ---- JSON -----------------------------------------------------------------------------------------------------------
 
@@ -183,6 +183,7 @@ std::string place_of(const Headroom& headroom, std::size_t segment, double s) {
     case Headroom::Subject::kStraightWay:
       return fmt::format("on the straight way from waypoint {} to {} of the query, at s = {:.3g}", segment, segment + 1,
                          s);
+    case Headroom::Subject::kMove:
     case Headroom::Subject::kPath: break;
   }
   return fmt::format("at s = {:.3g} of segment {}", s, segment);
@@ -282,14 +283,18 @@ std::string losses_text(const MarginBudget& budget, const DisplayUnit& unit) {
   return result.empty() ? "nothing" : result;
 }
 
-std::string tightest_sentence(const Headroom& headroom, const DisplayUnits& units, bool is_proved, bool has_bodies) {
+std::string tightest_sentence(const Headroom& headroom, const Problem& problem, const DisplayUnits& units,
+                              bool is_proved) {
   const TightPlace& place = *headroom.tightest;
   const std::string where = place_of(headroom, place.segment, place.s);
   const char* const begin = is_proved ? "Tightest limit of a cable" : "In the way";
   if (place.singular) return fmt::format("{}: a singular pose, or nearly so, {} (in floating point).", begin, where);
   const MarginBudget& budget = place.budget;
-  if (!is_proved && has_bodies && budget.left() > 0) {
-    return "In the way: no limit of a cable, as far as samples show, but a clearance of bodies or an exit cone.";
+  const bool in_time = headroom.subject == Headroom::Subject::kMove;
+  if (!is_proved && (problem.bodies || in_time) && budget.left() > 0) {
+    return fmt::format("In the way: no limit of a cable, as far as samples show, but {}{}{}.",
+                       in_time ? "a limit in time" : "", in_time && problem.bodies ? ", or " : "",
+                       problem.bodies ? "a clearance of bodies or an exit cone" : "");
   }
   const bool length = is_length(budget.id);
   const DisplayUnit& unit = units.of(length);
@@ -323,6 +328,7 @@ std::string subject_text(const Headroom& headroom) {
   switch (headroom.subject) {
     case Headroom::Subject::kWaypoint: return fmt::format("Waypoint {} of the query is", headroom.waypoint);
     case Headroom::Subject::kStraightWay: return "The straight way through the query's waypoints is";
+    case Headroom::Subject::kMove: return "The move, by its law in time, is";
     case Headroom::Subject::kPath: break;
   }
   return "The path is";
@@ -428,7 +434,7 @@ Headroom headroom_from_json(const JsonCursor& object) {
   if (object.contains("free_ends")) keys.emplace_back("free_ends");
   object.expect_keys(keys);
   const auto subject = std::ranges::find(kSubjects, object.at("subject").text());
-  if (subject == kSubjects.end()) object.at("subject").fail("\"path\", \"waypoint\" or \"straight way\"");
+  if (subject == kSubjects.end()) object.at("subject").fail("\"path\", \"waypoint\", \"straight way\" or \"move\"");
   result.subject = static_cast<Headroom::Subject>(subject - kSubjects.begin());
   if (result.subject == Headroom::Subject::kWaypoint) {
     result.waypoint = static_cast<std::size_t>(object.at("waypoint").integer(0, kMostSegments));
@@ -452,7 +458,7 @@ std::vector<std::string> headroom_sentences(const Headroom& headroom, const Prob
   std::vector<std::string> result;
   if (headroom.shares.empty()) return result;
   const bool is_proved = is_above_one(headroom.shares.front());
-  if (headroom.tightest) result.push_back(tightest_sentence(headroom, units, is_proved, problem.bodies.has_value()));
+  if (headroom.tightest) result.push_back(tightest_sentence(headroom, problem, units, is_proved));
   result.push_back(common_sentence(headroom, problem, units));
   if (std::string each = each_sentence(headroom, problem, units); !each.empty()) result.push_back(std::move(each));
   if (std::string ends = free_ends_sentence(headroom, units); !ends.empty()) result.push_back(std::move(ends));

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "base/input_error.h"
+#include "certify/headroom.h"
+#include "kinematics/move_sampler.h"
 #include "kinematics/path_rates.h"
 #include "planner/planner.h"
 #include "tests/support/robots.h"
@@ -140,6 +142,44 @@ TEST(Move, SlowsDownUntilItIsProvedWhereNothingWasProposed) {
   const PlannedMove slow = plan_move(light, path);
   EXPECT_EQ(slow.proof.verdict, Verdict::kProved) << slow.proof.reason;
   EXPECT_GT(slow.statistics.duration_s, 2 * std::sqrt(8 / 1e-4));
+}
+
+/// What a proof leaves is that of the machine in motion, and where little is left is where its tensions say.
+TEST(Move, ItsHeadroomIsThatOfTheMachineInMotion) {
+  Case the_case = crane(true);
+  // Tensions bind: hard starts, and little above the least tension.
+  the_case.problem.time->load_acceleration_m_s2 = "0.6";
+  the_case.problem.time->winch_acceleration_m_s2.fill("2");
+  the_case.move.jerk_m_s3 = 3;
+  const PlannedMove move = plan_move(the_case, crane_path(the_case));
+  ASSERT_EQ(move.proof.verdict, Verdict::kProved) << move.proof.reason;
+  const Problem& problem = the_case.problem;
+  const Headroom found = find_headroom(problem, move.path, Verdict::kProved, "1", {}, {});
+  ASSERT_GT(found.shares.size(), 4U);
+  const DecimalText& share = found.shares.front().share;
+  const auto verdict_at = [&](const DecimalText& factor) {
+    const Problem scaled = with_uncertainty_scaled(problem, UncertaintyKind::kAll, Decimal::parse(factor));
+    return prove_path(Prover(scaled), move.path).verdict;
+  };
+  EXPECT_GE(ScalarTraits<double>::from_decimal(share), 1);
+  EXPECT_EQ(verdict_at(share), Verdict::kProved);
+  EXPECT_NE(verdict_at((Decimal::parse(share) * Decimal::parse("1.1")).text()), Verdict::kProved);
+  Path still = move.path;
+  still.timing.reset();
+  const Headroom at_rest = find_headroom(without_time(problem), still, Verdict::kProved, "1", {}, {});
+  EXPECT_LT(ScalarTraits<double>::from_decimal(share),
+            0.98 * ScalarTraits<double>::from_decimal(at_rest.shares.front().share));
+
+  ASSERT_TRUE(found.tightest && !found.tightest->singular);
+  const TightPlace& place = *found.tightest;
+  const MoveSample sample = MoveSampler(problem).at_place(move.path, static_cast<double>(place.segment) + place.s);
+  const auto cable = static_cast<std::size_t>(place.budget.id.cable);
+  EXPECT_NEAR(place.budget.quantity, sample.statics.tension[cable], 1e-9 * place.budget.limit);
+  EXPECT_GT(std::abs(sample.statics.tension[cable] -
+                     PoseSampler(problem)
+                         .statics(PoseSampler(problem).rigid_pose(move.path.segment(place.segment), place.s))
+                         .tension[cable]),
+            50);
 }
 
 TEST(Move, IsRefutedWhereItsPathIsNotFeasibleAtRest) {
