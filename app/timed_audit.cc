@@ -45,7 +45,8 @@ std::string degrees_above(double radians) {
 
 /// Roll, pitch and yaw [rad] of R(q), roll and yaw by whole turns next to `previous`. Near a pitch of ±90 degrees only
 /// one of roll and yaw matters.
-std::array<double, 3> roll_pitch_yaw(const Eigen::Quaterniond& q, const std::optional<std::array<double, 3>>& previous) {
+std::array<double, 3> roll_pitch_yaw(const Eigen::Quaterniond& q,
+                                     const std::optional<std::array<double, 3>>& previous) {
   const Matrix3<double> r = q.toRotationMatrix();
   std::array<double, 3> result = {std::atan2(r(2, 1), r(2, 2)), std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0))),
                                   std::atan2(r(1, 0), r(0, 0))};
@@ -73,11 +74,10 @@ class TableReader {
     Sha256 digest;
     digest.update(bytes_);
     source.origin = {excerpt(std::filesystem::path(name_).filename().string()), digest.hex()};
-    source.description =
-        fmt::format("Read {}: {}Fitted: a cubic B-spline in {} pieces of {:.4g} s{}. {}\n", sanitize(name_),
-                    summary_, fit.path.segments(), fit.path.timing->step_s,
-                    source.table->angles.empty() ? "" : ", in position and " + source.table->angles,
-                    row_sentence(*source.table));
+    source.description = fmt::format("Read {}: {}Fitted: a cubic B-spline in {} pieces of {:.4g} s{}. {}\n",
+                                     sanitize(name_), summary_, fit.path.segments(), fit.path.timing->step_s,
+                                     source.table->angles.empty() ? "" : ", in position and " + source.table->angles,
+                                     row_sentence(*source.table));
     source.remarks = column_hint_;
     return source;
   }
@@ -92,12 +92,14 @@ class TableReader {
     PathFile file(std::make_unique<std::istringstream>(bytes_), name_, problem_.space);
     header_ = file.header();
     if (header_.format == PathFormat::kTautControlPoints) {
-      fail("got a spline's control points, which have no times, expected the certificate of a move or a table of poses "
-           "with times");
+      fail(
+          "got a spline's control points, which have no times, expected the certificate of a move or a table of poses "
+          "with times");
     }
     if (header_.form == PathForm::kCableLengths) {
-      fail("got cable lengths, expected poses (px, py, pz and angles or a quaternion, or the case's parameters): a move "
-           "is fitted to poses only");
+      fail(
+          "got cable lengths, expected poses (px, py, pz and angles or a quaternion, or the case's parameters): a move "
+          "is fitted to poses only");
     }
     if (!header_.time) {
       fail("got no column t, expected one with the time of each row, such as t[s]: the audit is of a move in time");
@@ -110,8 +112,8 @@ class TableReader {
     }
     summary_ = summary.text();
     if (rows_.size() < kLeastFittedRows) {
-      fail(fmt::format("got {}, expected at least {} of a move in time", plural(rows_.size(), "row"),
-                       kLeastFittedRows));
+      fail(
+          fmt::format("got {}, expected at least {} of a move in time", plural(rows_.size(), "row"), kLeastFittedRows));
     }
   }
 
@@ -128,8 +130,9 @@ class TableReader {
     constexpr double kClear = 10 * kPi / 180;  // of where two of three angles turn about one axis
     if (is_clear_in(AngleKind::kRollPitchYaw, kClear)) return;
     if (is_clear_in(AngleKind::kTiltAndTorsion, kClear)) return;
-    fail("got quaternions that are neither clear of a pitch of 90 degrees nor of a tilt of 0 or 180 degrees, expected "
-         "columns of the case's own parameters or angles");
+    fail(
+        "got quaternions that are neither clear of a pitch of 90 degrees nor of a tilt of 0 or 180 degrees, expected "
+        "columns of the case's own parameters or angles");
   }
 
   [[nodiscard]] bool is_clear_in(AngleKind kind, double clear) {
@@ -176,25 +179,27 @@ class TableReader {
     MoveFit fit = fit_move(problem_, rows, since_begin(rows_.back()), rounding);
     if (fit.worst.share <= 1) return fit;
     if (const auto end = moving_end(problem_, rows, rounding)) {
-      fail((end->is_last ? rows_.back() : rows_.front()).line,
-           fmt::format("got a platform that {} at {:.3g} m/s and {:.3g} deg/s in the {} row, expected a move that {} at "
-                       "rest",
-                       end->is_last ? "still goes" : "goes", end->speed_m_s, end->angular_speed_rad_s * 180 / kPi,
-                       end->is_last ? "last" : "first", end->is_last ? "ends" : "begins"));
+      fail(
+          (end->is_last ? rows_.back() : rows_.front()).line,
+          fmt::format("got a platform that {} at {:.3g} m/s and {:.3g} deg/s in the {} row, expected a move that {} at "
+                      "rest",
+                      end->is_last ? "still goes" : "goes", end->speed_m_s, end->angular_speed_rad_s * 180 / kPi,
+                      end->is_last ? "last" : "first", end->is_last ? "ends" : "begins"));
     }
     complain_of_row(fit.worst.row, fit.worst.position_m, fit.worst.angle_rad, fit.path.segments());
   }
 
   [[noreturn]] void complain_of_row(std::size_t row, double position_m, double angle_rad, std::size_t pieces) const {
     constexpr double kMore = 1.2;
-    fail(rows_[row].line,
-         fmt::format("got a row that is {} and {} off the nearest smooth move (a spline in {}, no more than one for two "
-                     "rows), expected one within the stated rounding of {} and {}. The rounding that would do for this "
-                     "row: {},{}; or is the row, or one next to it, wrong?",
-                     millimetres_above(position_m), degrees_above(angle_rad), plural(pieces, "piece"),
-                     rounding_.position, rounding_.angle,
-                     position_m > rounding_.position_m ? millimetres_above(kMore * position_m) : rounding_.position,
-                     angle_rad > rounding_.angle_rad ? degrees_above(kMore * angle_rad) : rounding_.angle));
+    fail(
+        rows_[row].line,
+        fmt::format("got a row that is {} and {} off the nearest smooth move (a spline in {}, no more than one for two "
+                    "rows), expected one within the stated rounding of {} and {}. The rounding that would do for this "
+                    "row: {},{}; or is the row, or one next to it, wrong?",
+                    millimetres_above(position_m), degrees_above(angle_rad), plural(pieces, "piece"),
+                    rounding_.position, rounding_.angle,
+                    position_m > rounding_.position_m ? millimetres_above(kMore * position_m) : rounding_.position,
+                    angle_rad > rounding_.angle_rad ? degrees_above(kMore * angle_rad) : rounding_.angle));
   }
 
   /// Proves how far each row is from the move.
@@ -211,8 +216,7 @@ class TableReader {
     for (const PathRow& row : rows_) {
       const std::size_t i = table.lines.size();
       table.lines.push_back(row.line);
-      const auto off = distances.at(since_begin(row),
-                                    {header_.form == PathForm::kQuaternion, row.x, row.half_turns});
+      const auto off = distances.at(since_begin(row), {header_.form == PathForm::kQuaternion, row.x, row.half_turns});
       if (!off) fail(row.line, "got a pose beyond what can be enclosed, expected numbers of a usual size");
       if (!(off->position_m <= rounding_.position_m && off->angle_rad <= rounding_.angle_rad)) {
         complain_of_row(i, off->position_m, off->angle_rad, fit.path.segments());
@@ -258,11 +262,12 @@ std::pair<std::size_t, std::size_t> FittedTable::lines_at(double time_s) const {
 MoveSource read_move(const Problem& problem, const PathInput& input, const std::optional<TableRounding>& rounding) {
   if (input.text || !is_certificate_name(input.name)) {
     if (!rounding) {
-      throw InputError(input.name +
-                           ": got a table and no rounding, expected how far its rows may be from the move that is fitted "
-                           "to them (--rounding 0.1mm,0.01deg, or audit.rounding in the case): accelerations do not "
-                           "follow from digits",
-                       {input.name});
+      throw InputError(
+          input.name +
+              ": got a table and no rounding, expected how far its rows may be from the move that is fitted "
+              "to them (--rounding 0.1mm,0.01deg, or audit.rounding in the case): accelerations do not "
+              "follow from digits",
+          {input.name});
     }
     return TableReader(problem, input, *rounding).read();
   }
@@ -275,9 +280,8 @@ MoveSource read_move(const Problem& problem, const PathInput& input, const std::
 }
 
 std::string row_sentence(const FittedTable& table) {
-  const std::string zero = table.begin_s.sign() == 0
-                               ? ""
-                               : fmt::format(" The move's time 0 is {} s in the table.", table.begin_s.text());
+  const std::string zero =
+      table.begin_s.sign() == 0 ? "" : fmt::format(" The move's time 0 is {} s in the table.", table.begin_s.text());
   return fmt::format(
       "All {} lie within {} and {} of this move at their times (at most {}, line {}, and {}, line {}).{} The move is "
       "what is audited: neither the rows' last digits nor how a drive joins the rows are part of it.",

@@ -519,7 +519,8 @@ AuditedPath read_audited_path(const Field& field, const Units& units, bool has_t
     result.timed = read_choice<bool>(*timed, {{"true", true}, {"false", false}});
     if (result.timed && !has_time) timed->complain("got true in a case without the key 'time', expected both");
     if (result.timed && !result.interpolation.empty()) {
-      map.at("interpolation").complain("got a law between rows, expected none of a table that is audited with its times");
+      map.at("interpolation")
+          .complain("got a law between rows, expected none of a table that is audited with its times");
     }
   }
   if (const auto rounding = map.find("rounding")) {

@@ -59,9 +59,9 @@ inline constexpr std::array<const char*, 12> kBoundQuantities = {
 
 /// The path of a case that is to be audited instead of planned.
 struct AuditedPath {
-  std::string file;                        ///< relative to the case file
-  std::string interpolation;               ///< empty: as the file suggests
-  bool timed = false;                      ///< as a move in time
+  std::string file;                       ///< relative to the case file
+  std::string interpolation;              ///< empty: as the file suggests
+  bool timed = false;                     ///< as a move in time
   std::optional<TableRounding> rounding;  ///< of the table's rows; only if timed
 };
 

@@ -24,8 +24,9 @@ bool is_sensible(double size, Dimension dimension) {
 }  // namespace
 
 std::string rounding_expected(Dimension dimension) {
-  return dimension == Dimension::kLength ? fmt::format("a length from {} m to {} m, such as 0.1 mm", kLeast, kMostMetres)
-                                         : fmt::format("an angle from {} to {} rad, such as 0.01 deg", kLeast, kMostRadians);
+  return dimension == Dimension::kLength
+             ? fmt::format("a length from {} m to {} m, such as 0.1 mm", kLeast, kMostMetres)
+             : fmt::format("an angle from {} to {} rad, such as 0.01 deg", kLeast, kMostRadians);
 }
 
 std::optional<RoundingSize> read_rounding_size(const std::string& text, Dimension dimension,

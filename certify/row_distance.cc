@@ -14,8 +14,9 @@
 namespace taut {
 namespace {
 
-/// All numbers of which x is the nearest binary64.
+/// All numbers of which x is the nearest binary64. Path files have none below 1e-300 but 0 (Decimal).
 Interval around(double x) {
+  if (x == 0) return {0.0, 0.0};
   constexpr double kEnd = std::numeric_limits<double>::infinity();
   return {std::nextafter(x, -kEnd), std::nextafter(x, kEnd)};
 }

@@ -413,12 +413,12 @@ int run_audit(const AuditArguments& arguments) {
       arguments.law.empty() ? std::nullopt : std::optional(audit_laws().at(arguments.law));
   std::optional<TableRounding> rounding;
   if (!arguments.rounding.empty()) rounding = read_table_rounding(arguments.rounding, "--rounding");
-  const AuditRequest request =
-      resolved({arguments.path, law, arguments.timed, rounding}, stated, arguments.case_path);
+  const AuditRequest request = resolved({arguments.path, law, arguments.timed, rounding}, stated, arguments.case_path);
   if (request.timed) return run_timed_audit(arguments, stated, request, stopwatch);
   if (rounding) {
-    throw InputError(ErrorCode::kUse, "--rounding: got it without --timed, expected both: rows without times are audited "
-                                      "as they are");
+    throw InputError(ErrorCode::kUse,
+                     "--rounding: got it without --timed, expected both: rows without times are audited "
+                     "as they are");
   }
   const Case case_ = at_rest(std::move(stated));
   const std::optional<ControllerStep> step =

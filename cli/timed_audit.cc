@@ -94,8 +94,7 @@ nlohmann::json timed_summary(const TimedAudit& audit, const MoveSource& source, 
                            {"warnings", the_case.warnings}};
   result.update(result_json(checked));
   const bool is_proved = exit_code(checked) == kProvedExit;
-  result["messages"] =
-      messages_json({source.remarks, is_proved ? "" : timed_sentence(audit, source, the_case)});
+  result["messages"] = messages_json({source.remarks, is_proved ? "" : timed_sentence(audit, source, the_case)});
   return result;
 }
 

@@ -11,13 +11,13 @@ namespace taut {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kLeastPieces = 3;        // each end takes three equal control points
-constexpr std::size_t kMostPieces = 19'997;    // of a law's 20,000 control values
-constexpr std::size_t kRowsOfPiece = 2;        // at least, on average: fewer would let the spline pass all rows
-constexpr double kNearEnough = 0.01;           // of the rounding
-constexpr double kNearer = 0.8;                // what twice as many pieces have to come to
-constexpr double kSmoother = 1.15;             // how much farther the smoothest fit may be
-constexpr double kBelowOne = 1 - 1e-6;         // leaves something to proved bounds
+constexpr std::size_t kLeastPieces = 3;      // each end takes three equal control points
+constexpr std::size_t kMostPieces = 19'997;  // of a law's 20,000 control values
+constexpr std::size_t kRowsOfPiece = 2;      // at least, on average: fewer would let the spline pass all rows
+constexpr double kNearEnough = 0.01;         // of the rounding
+constexpr double kNearer = 0.8;              // what twice as many pieces have to come to
+constexpr double kSmoother = 1.15;           // how much farther the smoothest fit may be
+constexpr double kBelowOne = 1 - 1e-6;       // leaves something to proved bounds
 constexpr double kLeastPenalty = -6, kMostPenalty = 6;  // powers of ten, a row
 constexpr double kLightPenalty = -2;
 
@@ -196,7 +196,7 @@ MoveFit fit_move(const Problem& problem, std::span<const TimedRow> rows, const R
 
 std::optional<MovingEnd> moving_end(const Problem& problem, std::span<const TimedRow> rows,
                                     const RowRounding& rounding) {
-  constexpr double kFar = 16;         // roundings, beyond which half the way tells how it was gone
+  constexpr double kFar = 16;          // roundings, beyond which half the way tells how it was gone
   constexpr double kLeastPower = 1.5;  // of time: 2 at constant acceleration, 1 at constant speed
   const PoseSampler sampler(problem);
   for (const bool is_last : {false, true}) {

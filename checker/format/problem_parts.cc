@@ -261,8 +261,12 @@ bool is_coordinate_space(const Json& space, const Json& of_case) {
   const auto is_of = [&](const Json& angles) {
     Problem with_angles;
     read_angles(Cursor(angles, "angles"), with_angles);
-    Json expected = {{"angles", angles},  {"constants", Json::object()}, {"flip", nullptr},
-                     {"constraints", Json::array()}, {"parameters", Json::array()}, {"pose", Json::object()}};
+    Json expected = {{"angles", angles},
+                     {"constants", Json::object()},
+                     {"flip", nullptr},
+                     {"constraints", Json::array()},
+                     {"parameters", Json::array()},
+                     {"pose", Json::object()}};
     for (const char* name : pose_names(with_angles.angles)) {
       if (name == nullptr) continue;
       const bool is_angle = expected["parameters"].size() >= 3;

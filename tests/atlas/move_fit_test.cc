@@ -26,8 +26,8 @@ Path true_move() {
   const std::vector<double> way = {0, 0, 0, 0.3, 0.9, 1.7, 2.6, 3.4, 4, 4, 4};
   for (std::size_t i = 0; i < way.size(); ++i) {
     const double x = way[i];
-    path.waypoints.push_back({{x, 0.1 * x * x, 0.3 - 0.05 * std::sin(x * 0.7), 0.2, 0.3 + 0.1 * x, 0.05 * x},
-                              std::vector<int>(6, 0)});
+    path.waypoints.push_back(
+        {{x, 0.1 * x * x, 0.3 - 0.05 * std::sin(x * 0.7), 0.2, 0.3 + 0.1 * x, 0.05 * x}, std::vector<int>(6, 0)});
     law.controls.push_back(static_cast<double>(i) - 1);
   }
   path.timing = law;

@@ -108,7 +108,7 @@ TEST(RowDistance, CountsHalfTurns) {
   const Path path = some_move();
   RowPose row{false, path.waypoints.front().x, std::vector<int>(6, 0)};
   row.half_turns[5] = 2;
-  EXPECT_LT(RowDistances(problem, path).at(0, row)->angle_rad, 1e-14);
+  EXPECT_LT(RowDistances(problem, path).at(0, row)->angle_rad, 1e-13);
   row.half_turns[5] = 1;
   EXPECT_GE(RowDistances(problem, path).at(0, row)->angle_rad, 3.14159265);
 }

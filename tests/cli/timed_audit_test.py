@@ -103,15 +103,15 @@ class TimedAudits(InFolder):
             self.assertLess(math.hypot(at[3], at[4], at[5] - yaw), math.radians(0.0101))
 
     def test_a_move_that_is_feasible_slowly_is_refuted_fast(self):
-        said = self.audit(self.write("fast.csv", quaternions(log(duration=15, rows=301))), *ROUNDING, code=1)
+        said = self.audit(self.write("fast.csv", quaternions(log(duration=17, rows=341))), *ROUNDING, code=1)
         self.assertRegex(said, r"REFUTED[^:]*: at t = [0-9.]+ s \(lines? [0-9-]+\)")
         self.assertIn("its limit is 0.8", re.sub(r"\s+", " ", said))
         self.assertIn("about the fitted move", re.sub(r"\s+", " ", said))
         self.assertFalse(os.path.exists(self.path("out", "winches.csv")))
         found = self.audited(self.path("fast.csv"), *ROUNDING, code=1)
         self.assertEqual((found["verdict"], found["witness"]["kind"]), ("refuted", "load_speed"))
-        # The speed is beyond its limit where u(1 − u) is large, between 4.0 s and 11.0 s.
-        self.assertTrue(3.8 < found["move"]["witness_s"] < 11.2, found["move"])
+        # 30 u² (1 − u)² · 8 m / 17 s is above 0.8 m/s from u = 0.395 to 0.605.
+        self.assertTrue(0.38 * 17 < found["move"]["witness_s"] < 0.62 * 17, found["move"])
         checked = run(CHECK, self.path("out", "certificate.json"), self.case, "--expect", "refuted")
         self.assertEqual(checked.returncode, 0, checked.stdout)
         # At rest the same poses are proved.
@@ -187,7 +187,7 @@ class TimedAudits(InFolder):
             rows[200][3] += 0.005
 
         said = self.audit(self.write("jump.csv", quaternions(log(change=jump))), *ROUNDING, code=3)
-        self.assertRegex(said, r"jump\.csv:(199|20[0-4]): got a row that is [0-9.]+ mm and [0-9.]+ deg off")
+        self.assertRegex(said, r"jump\.csv:(199|20[0-4]): got a row that is [0-9.]+ mm and [0-9.e-]+ deg off")
         self.assertRegex(said, r"would\s+do\s+for\s+this\s+row:\s+[0-9.]+\s+mm,")
         said = self.audit(self.write("blunder.csv", quaternions(log(change=blunder))), *ROUNDING, code=3)
         self.assertRegex(said, r"blunder\.csv:202: got a row that is [0-9.]+ mm")
