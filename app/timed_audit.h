@@ -73,7 +73,8 @@ struct TimedAuditOptions {
   double max_seconds = kCheckSeconds;  ///< that the checker may take
 };
 
-/// Proves the move and has the checker prove it again. @throws InputError; std::logic_error where the checker rejects it
+/// Proves the move and has the checker prove it again. @throws InputError; std::logic_error where the checker rejects
+/// it
 [[nodiscard]] TimedAudit audit_move(const MoveSource& source, const Case& the_case, const TimedAuditOptions& options,
                                     const std::stop_token& stop);
 

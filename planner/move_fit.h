@@ -3,8 +3,8 @@
 //
 // The move is a cubic B-spline in the parameters of the space, with equally spaced knots in time (s = t/h), that begins
 // and ends with three equal control points: at rest. It is the least squares of the rows, with a penalty on its third
-// differences. Digits of a table are noise to accelerations, so a spline is not to follow them: it has at least two rows
-// a piece, as few pieces as bring the rows near, and as large a penalty as leaves them there. How near is for
+// differences. Digits of a table are noise to accelerations, so a spline is not to follow them: it has at least two
+// rows a piece, as few pieces as bring the rows near, and as large a penalty as leaves them there. How near is for
 // certify/row_distance.h to prove.
 #pragma once
 

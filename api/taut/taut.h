@@ -430,9 +430,9 @@ struct AuditOptions {
   std::stop_token stop = {};
   double max_check_seconds = kCheckSeconds;    ///< that the checker may take before the certificate is unchecked
   double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares; 0: they are not sought
-  /// Audit a move in time, in a case with the key `time`: a certificate's path with its law, or a move that is fitted to
-  /// a table of poses with times, within `rounding` of all its rows (docs/audits.md). There are no stretches then, and
-  /// no provable shares.
+  /// Audit a move in time, in a case with the key `time`: a certificate's path with its law, or a move that is fitted
+  /// to a table of poses with times, within `rounding` of all its rows (docs/audits.md). There are no stretches then,
+  /// and no provable shares.
   bool timed = false;
   std::optional<Rounding> rounding = {};  ///< of a table; nothing: the case's own
 };

@@ -152,7 +152,8 @@ class TimedAudits(InFolder):
         self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
         self.assertEqual(run(TAUT, "regress", case).returncode, 0)
         for wrong, expected in (
-                ("timed: true, rounding: {position: 0.1 mm, angle: 0.01 deg}, interpolation: straight", "none of a table"),
+                ("timed: true, rounding: {position: 0.1 mm, angle: 0.01 deg}, interpolation: straight",
+                 "none of a table"),
                 ("rounding: {position: 0.1 mm, angle: 0.01 deg}", "without 'timed: true'"),
                 ("timed: maybe", "true"),
                 ("timed: true, rounding: {position: 0.1 mm}", "expected the key 'angle'"),
