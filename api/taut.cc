@@ -21,6 +21,7 @@
 #include "app/recheck.h"
 #include "app/report.h"
 #include "app/sensitivity_json.h"
+#include "app/timed_audit.h"
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/sanitize.h"
@@ -857,13 +858,35 @@ auto prove_path_within(ProgressBridge& relay, const Work& work) {
   }
 }
 
+/// A move in time. @param request  whose `timed` is true
+Certificate audit_in_time(const taut::Case& the_case, const AuditRequest& request, const AuditOptions& options,
+                          const std::stop_token& stop) {
+  require_timed(request, the_case, "timed");
+  const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
+  const MoveSource source = read_move(the_case.problem, request.path, request.rounding);
+  TimedAudit audited =
+      audit_move(source, the_case, {options.max_bits, key ? &*key : nullptr, options.max_check_seconds}, stop);
+  if (audited.interrupted) throw Interrupted("interrupted");
+  return certificate_of(std::move(audited.text), std::move(audited.checked));
+}
+
 Certificate audit_input(const Case& the_case, const PathInput& path, const AuditOptions& options) {
   ProgressBridge relay(options.progress, options.stop);
   const auto work = [&] {
+    AuditRequest request = audit_request(the_case.content(), path, options.interpolation);
+    request.timed |= options.timed;
+    if (options.rounding) request.rounding = table_rounding(options.rounding->position_m, options.rounding->angle_rad);
+    if (request.timed) {
+      require_seconds(options.max_check_seconds, "max_check_seconds");
+      relay.report({"proving the move", 0, 0});
+      return audit_in_time(the_case.content().the_case, request, options, relay.token());
+    }
+    if (options.rounding) {
+      throw taut::InputError("rounding: got it without timed, expected both", {"", 0, "rounding"});
+    }
     const Case::Content content{at_rest(the_case.content().the_case), the_case.content().file};
     require_seconds(options.max_check_seconds, "max_check_seconds");
     require_seconds(options.headroom_seconds, "headroom_seconds");
-    const AuditRequest request = audit_request(content, path, options.interpolation);
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
     PathSource source(content.the_case.problem, request.path, request.law);
     std::string text;

@@ -291,6 +291,8 @@ AuditRequest resolved(AuditRequest request, const Case& the_case, const std::str
   const auto& named = *the_case.audit;
   request.path = (std::filesystem::path(case_path).parent_path() / named.file).string();
   if (!request.law && !named.interpolation.empty()) request.law = audit_laws().at(named.interpolation);
+  request.timed |= named.timed;
+  if (!request.rounding) request.rounding = named.rounding;
   return request;
 }
 

@@ -35,8 +35,10 @@ inline constexpr std::size_t kMostReported = 20'000;
 
 /// Which path is audited, and how it is read.
 struct AuditRequest {
-  PathInput path = std::string();    ///< without a name: that of the case
-  std::optional<Interpolation> law;  ///< nothing: as the file suggests
+  PathInput path = std::string();              ///< without a name: that of the case
+  std::optional<Interpolation> law;            ///< nothing: as the file suggests
+  bool timed = false;                          ///< as a move in time (timed_audit.h)
+  std::optional<TableRounding> rounding = {};  ///< of a table's rows, where it is timed
 };
 
 /// Completes a request that names no path by what the case's own `audit` says.

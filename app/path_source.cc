@@ -38,6 +38,13 @@ void require_poses(const Path& path, const std::string& file) {
   }
 }
 
+/// "without its law in time, which this audit is not of", or how long it takes.
+std::string law_in_time(const Path& path, bool is_kept) {
+  if (!path.timing) return "";
+  return is_kept ? fmt::format(" with its law in time, {:.6g} s", path.timing->duration_s())
+                 : " without its law in time, which this audit is not of (--timed is)";
+}
+
 /// A path is read more than once, which a pipe can't be.
 PathInput kept_if_pipe(PathInput input) {
   std::error_code ignored;
@@ -83,16 +90,19 @@ class DigestedStream : private std::streambuf, public std::istream {
 
 }  // namespace
 
-PathSource::PathSource(const Problem& stated, PathInput input, std::optional<Interpolation> law)
-    : input_(kept_if_pipe(std::move(input))), case_problem_(without_time(stated)) {
+std::string bytes_of(const PathInput& input) { return input.text ? *input.text : read_whole(input.name); }
+
+PathSource::PathSource(const Problem& stated, PathInput input, std::optional<Interpolation> law, bool keeps_time)
+    : input_(kept_if_pipe(std::move(input))),
+      keeps_time_(keeps_time),
+      case_problem_(keeps_time ? stated : without_time(stated)) {
   const Problem& problem = case_problem_;
   if (!input_.text && is_certificate_name(path_)) {
     read_certificate_path(law);
     waypoints_ = certificate_->waypoints.size();
-    description_ = fmt::format("a certificate's path{}, {}\n",
-                               certificate_->timing ? " without its law in time, which no audit is of" : "",
+    description_ = fmt::format("a certificate's path{}, {}\n", law_in_time(*certificate_, keeps_time_),
                                plural(waypoints_, "waypoint"));
-    certificate_->timing.reset();
+    if (!keeps_time_) certificate_->timing.reset();
   } else {
     PathFile file = open_file();
     header_ = file.header();
@@ -131,6 +141,9 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
                          certificate["problem"].is_object() && certificate["problem"].contains("space");
   if (!has_space) throw InputError(path_ + ": got no problem and no path, expected a certificate", {path_});
   certificate_ = with_error_code(ErrorCode::kPath, path_, [&] { return read_path(certificate["path"]); });
+  if (keeps_time_ && !certificate_->timing) {
+    throw InputError(path_ + ": path: got no law in time ('timing'), expected the certificate of a move", {path_});
+  }
   require_poses(*certificate_, path_);
   law_ = certificate_->interpolation;
   if (law && *law != law_) {
@@ -143,7 +156,8 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
   const nlohmann::json& space = certificate["problem"]["space"];
   std::vector<SpaceText> spaces = {coordinate_space()};
   if (!has_poses(law_)) {
-    spaces = {case_problem_.space, coordinate_space(case_problem_.space.angles), coordinate_space()};
+    spaces = {case_problem_.space, coordinate_space(case_problem_.space.angles), coordinate_space(),
+              coordinate_space({AngleKind::kRollPitchYaw})};
   }
   const bool is_known = std::ranges::any_of(spaces, [&](const SpaceText& known) {
     problem_.space = known;
@@ -183,7 +197,7 @@ PathFile PathSource::open_file() const {
 }
 
 Path PathSource::whole_path() const {
-  PathSource again(case_problem_, input_, law_);
+  PathSource again(case_problem_, input_, law_, keeps_time_);
   if (again.sha256_ != sha256_) throw InputError(path_ + ": the file was changed while it was read", {path_});
   Path path;
   path.interpolation = law_;
@@ -191,11 +205,12 @@ Path PathSource::whole_path() const {
     path.waypoints.push_back(waypoint.waypoint);
     if (waypoint.time_s) path.times.push_back(waypoint.time_s->text());
   }
+  if (certificate_) path.timing = certificate_->timing;
   return path;
 }
 
 Path PathSource::first_segment() const {
-  PathSource again(case_problem_, input_, law_);
+  PathSource again(case_problem_, input_, law_, keeps_time_);
   Path path;
   path.interpolation = law_;
   SourceWaypoint waypoint;

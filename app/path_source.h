@@ -35,13 +35,17 @@ struct SourceWaypoint {
   bool is_copy = false;  ///< a path of one pose is audited as a segment that stays there
 };
 
+/// The bytes of a file or a text. @throws InputError where there is no such file.
+[[nodiscard]] std::string bytes_of(const PathInput& input);
+
 class PathSource {
  public:
   /// Reads all of the file once, so that whatever is wrong with it is said at once, and stands before its first
   /// waypoint.
-  /// @param law  how to join the waypoints; nothing for the file's usual way.
-  /// @throws InputError
-  PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law);
+  /// @param law         how to join the waypoints; nothing for the file's usual way.
+  /// @param keeps_time  a certificate's law in time and the problem's limits in time are kept
+  /// @throws InputError, also where a law in time is asked for and there is none.
+  PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law, bool keeps_time = false);
   ~PathSource();
   PathSource(const PathSource&) = delete;
   PathSource& operator=(const PathSource&) = delete;
@@ -51,7 +55,8 @@ class PathSource {
   /// The first segment of the path, read once more.
   [[nodiscard]] Path first_segment() const;
 
-  /// The case's problem without its query and its limits in time, in the case's space or in the space of all poses.
+  /// The case's problem without its query and, unless they are kept, its limits in time; in the case's space or in the
+  /// space of all poses.
   [[nodiscard]] const Problem& problem() const { return problem_; }
   [[nodiscard]] Interpolation law() const { return law_; }
   [[nodiscard]] std::size_t waypoints() const { return waypoints_; }  ///< with the copy of a single one
@@ -87,6 +92,7 @@ class PathSource {
 
   PathInput input_;
   const std::string& path_ = input_.name;
+  bool keeps_time_;
   bool stays_ = false;  ///< one pose, which takes no time
   Problem case_problem_;
   Problem problem_;

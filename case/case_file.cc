@@ -25,6 +25,7 @@
 #include "case/decoration_fields.h"
 #include "case/fields.h"
 #include "case/load.h"
+#include "case/table_rounding.h"
 #include "case/time.h"
 #include "case/waypoint.h"
 #include "problem/decimal.h"
@@ -492,14 +493,39 @@ void read_expectation(const Field& field, const Units& units, Case& result) {
                                                      {"no path", Expectation::kNoPath}});
 }
 
-AuditedPath read_audited_path(const Field& field) {
-  const Map map = field.map({"path", "interpolation"});
+TableRounding read_rounding(const Field& field, const Units& units) {
+  const Map map = field.map({"position", "angle"});
+  const auto read = [&](const char* key, Dimension dimension) {
+    const Field entry = map.at(key);
+    const std::string expected = rounding_expected(dimension);
+    const auto size = read_rounding_size(entry.text(expected), dimension, units[dimension]);
+    if (!size) entry.fail(expected);
+    return *size;
+  };
+  const RoundingSize position = read("position", Dimension::kLength), angle = read("angle", Dimension::kAngle);
+  return {position.si, angle.si, position.text, angle.text};
+}
+
+AuditedPath read_audited_path(const Field& field, const Units& units, bool has_time) {
+  const Map map = field.map({"path", "interpolation", "timed", "rounding"});
   AuditedPath result;
   result.file = map.at("path").text("the name of a path file, seen from the case file");
   if (const auto law = map.find("interpolation")) {
     const std::vector<std::string> laws = {"straight", "geodesic", "cable-lengths"};
     result.interpolation = law->text("one of " + join(laws));
     if (std::ranges::find(laws, result.interpolation) == laws.end()) law->fail("one of " + join(laws));
+  }
+  if (const auto timed = map.find("timed")) {
+    result.timed = read_choice<bool>(*timed, {{"true", true}, {"false", false}});
+    if (result.timed && !has_time) timed->complain("got true in a case without the key 'time', expected both");
+    if (result.timed && !result.interpolation.empty()) {
+      map.at("interpolation")
+          .complain("got a law between rows, expected none of a table that is audited with its times");
+    }
+  }
+  if (const auto rounding = map.find("rounding")) {
+    if (!result.timed) rounding->complain("got a rounding without 'timed: true', expected both");
+    result.rounding = read_rounding(*rounding, units);
   }
   return result;
 }
@@ -573,7 +599,7 @@ Case read_case(const Field& root, const std::filesystem::path& folder, const std
     result.problem.time = in_time.limits;
     result.move = in_time.move;
   }
-  if (const auto audit = map.find("audit")) result.audit = read_audited_path(*audit);
+  if (const auto audit = map.find("audit")) result.audit = read_audited_path(*audit, units, time.has_value());
   if (const auto expect = map.find("expect")) read_expectation(*expect, units, result);
   return result;
 }

@@ -12,6 +12,7 @@
 #include "case/bodies.h"
 #include "case/decoration.h"
 #include "case/document_fields.h"
+#include "case/table_rounding.h"
 #include "problem/problem.h"
 #include "problem/units.h"
 
@@ -58,8 +59,10 @@ inline constexpr std::array<const char*, 12> kBoundQuantities = {
 
 /// The path of a case that is to be audited instead of planned.
 struct AuditedPath {
-  std::string file;           ///< relative to the case file
-  std::string interpolation;  ///< empty: as the file suggests
+  std::string file;                       ///< relative to the case file
+  std::string interpolation;              ///< empty: as the file suggests
+  bool timed = false;                     ///< as a move in time
+  std::optional<TableRounding> rounding;  ///< of the table's rows; only if timed
 };
 
 /// How a move is planned; numbers for the planner, of which nothing is proved. What is proved is in Problem::time.

@@ -83,6 +83,11 @@ void require_path(const Certificate& certificate, const std::string& sha256, con
   };
   require(file.certificate_sha256.empty() || file.certificate_sha256 == sha256,
           "the file names another certificate's SHA-256");
+  const bool is_fitted = path.timing && path.law == Law::kCubicBSpline && file.law != path.law && certificate.source &&
+                         certificate.source->sha256 == file.sha256;
+  require(!is_fitted,
+          "the certificate is about a move that was fitted to this file's rows, which are no points of it: compare the "
+          "path.csv beside the certificate");
   require(path.law == file.law,
           std::string("the certificate's interpolation is ") + name(path.law) + ", the file's is " + name(file.law));
   const bool stays = file.waypoints.size() == 1 && path.waypoints.size() == 2;  // a segment that stays at one pose

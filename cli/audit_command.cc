@@ -25,6 +25,7 @@
 #include "cli/report_command.h"
 #include "cli/result_folder.h"
 #include "cli/terminal.h"
+#include "cli/timed_audit.h"
 #include "cli/verdict_output.h"
 #include "path_io/controller_csv.h"
 #include "reports/page/html_report.h"
@@ -217,6 +218,8 @@ nlohmann::json summary(const Audit& audit, const PathSource& source, const check
                            {"stretches_violated", if_checked(audit.stretches_violated)},
                            {"stretches_open", if_checked(audit.stretches_open)},
                            {"stretches", if_checked(stretches_json(audit, source))},
+                           {"move", nullptr},
+                           {"table", nullptr},
                            {"prove_seconds", audit.seconds},
                            {"read", source.description()}};
   result.update(result_json(checked));
@@ -383,6 +386,10 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command
       .add_option("--interpolation", arguments.law, "what happens between waypoints (default: as the file suggests)")
       ->check(CLI::IsMember(names));
+  command.add_flag("--timed", arguments.timed,
+                   "audit a move in time: a certificate's path with its law, or a table of poses with times");
+  command.add_option("--rounding", arguments.rounding,
+                     "how far a table's rows may be from the move that is fitted to them, for example 0.1mm,0.01deg");
   command.add_option("--out", arguments.out,
                      "directory for the results (default: a new one, out/CASE-audit-PATH, or that of these files)");
   command.add_option("--step", arguments.step,
@@ -401,10 +408,19 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
 
 int run_audit(const AuditArguments& arguments) {
   const Stopwatch stopwatch;
-  const Case case_ = at_rest(load_case(arguments.case_path));
+  Case stated = load_case(arguments.case_path);
   const std::optional<Interpolation> law =
       arguments.law.empty() ? std::nullopt : std::optional(audit_laws().at(arguments.law));
-  const AuditRequest request = resolved({arguments.path, law}, case_, arguments.case_path);
+  std::optional<TableRounding> rounding;
+  if (!arguments.rounding.empty()) rounding = read_table_rounding(arguments.rounding, "--rounding");
+  const AuditRequest request = resolved({arguments.path, law, arguments.timed, rounding}, stated, arguments.case_path);
+  if (request.timed) return run_timed_audit(arguments, stated, request, stopwatch);
+  if (rounding) {
+    throw InputError(ErrorCode::kUse,
+                     "--rounding: got it without --timed, expected both: rows without times are audited "
+                     "as they are");
+  }
+  const Case case_ = at_rest(std::move(stated));
   const std::optional<ControllerStep> step =
       arguments.step.empty() ? std::nullopt : std::optional(read_controller_step(arguments.step, "--step"));
   const std::optional<SigningKey> key = load_signing_key(arguments.key);

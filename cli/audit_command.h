@@ -16,8 +16,10 @@ struct AuditArguments {
   std::string law;   ///< empty: the file's own
   std::string out;
   std::string step;  ///< of controller.csv; empty: none is written
-  std::string key;   ///< file of the private key that signs, or empty
-  long bits = 4096;  ///< of the prover's last rung
+  bool timed = false;
+  std::string rounding;  ///< of a table's rows; empty: the case's
+  std::string key;       ///< file of the private key that signs, or empty
+  long bits = 4096;      ///< of the prover's last rung
   bool json = false;
   bool no_report = false;
   double max_seconds = kCheckSeconds;          ///< that the checker may take

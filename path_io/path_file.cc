@@ -206,6 +206,7 @@ class PathFile::Implementation {
  public:
   Implementation(std::unique_ptr<std::istream> text, const std::string& name, const SpaceText& space)
       : lines_(std::move(text), name), space_(space), pose_names_(pose_names(space.angles.kind)) {
+    header_.angles = space.angles;
     for (const Parameter& parameter : space.parameters) parameter_names_.push_back(parameter.name);
     std::string_view first;
     if (!lines_.next(first)) lines_.fail("got no rows, expected a path: a header and a row for each pose");
@@ -338,7 +339,14 @@ class PathFile::Implementation {
 
   void read_own_header(const std::vector<Title>& titles, const std::vector<std::string>& names) {
     header_.format = names.front() == "waypoint" ? PathFormat::kTautWaypoints : PathFormat::kTautControlPoints;
-    const bool is_of_poses = contains(names, "x.px") && !is_parameter("px");  // an audited path in pose coordinates
+    // A move that was fitted to quaternions is in roll, pitch and yaw, whatever the case's angles are.
+    const bool is_fitted = contains(names, "x.roll") && !is_parameter("roll");
+    if (is_fitted) {
+      header_.angles = {AngleKind::kRollPitchYaw};
+      pose_names_ = pose_names(AngleKind::kRollPitchYaw);
+    }
+    // An audited path in pose coordinates.
+    const bool is_of_poses = is_fitted || (contains(names, "x.px") && !is_parameter("px"));
     header_.form = is_of_poses ? PathForm::kAngles : PathForm::kParameters;
     const std::vector<std::string> coordinates = is_of_poses ? pose_names_ : parameter_names_;
     for (const std::string& coordinate : coordinates) {
@@ -471,6 +479,15 @@ class PathFile::Implementation {
         unknown.push_back(excerpt(name));
       }
     }
+    const auto is_rate = [](const std::string& name) {
+      return name.size() == 2 && (name[0] == 'v' || name[0] == 'a') && name[1] >= '1' && name[1] <= '6';
+    };
+    if (!unknown.empty() && std::ranges::all_of(unknown, is_rate)) {
+      fail("",
+           fmt::format("got the column '{}', a rate of a winch, expected a path: that of a winches.csv of taut is in "
+                       "the poses.csv beside it",
+                       unknown.front()));
+    }
     if (!unknown.empty()) {
       const std::string hint = angles_hint(unknown.front(), space_.angles.kind);
       fail("", fmt::format("got the unknown column '{}', {}expected {}", unknown.front(), hint, choices));
@@ -597,7 +614,7 @@ class PathFile::Implementation {
 
   [[nodiscard]] int read_half_turns(const Column& column, std::string_view cell) const {
     const bool turns = header_.form == PathForm::kAngles
-                           ? is_turn(space_.angles.kind, column.index)
+                           ? is_turn(header_.angles.kind, column.index)
                            : space_.parameters[column.index].kind == ParameterKind::kPeriodic;
     return read_whole(column, cell, turns ? kMaxHalfTurns : 0,
                       turns ? fmt::format("a whole number of at most {} either way", kMaxHalfTurns)

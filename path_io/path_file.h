@@ -35,7 +35,7 @@ enum class PathFormat { kTable, kTum, kTautWaypoints, kTautControlPoints };
 /// The coordinates that a row consists of, and their order.
 enum class PathForm {
   kParameters,    ///< the case's own parameters
-  kAngles,        ///< px, py, pz [m], phi, theta, sigma [rad]
+  kAngles,        ///< px, py, pz [m], phi, theta, sigma [rad], or other angles: PathHeader::angles
   kQuaternion,    ///< px, py, pz [m], qx, qy, qz, qw: | |q| − 1 | <= kNormTolerance; q and −q are one pose
   kCableLengths,  ///< l1 … l6 [m]
 };
@@ -55,6 +55,7 @@ struct PathColumn {
 struct PathHeader {
   PathFormat format = PathFormat::kTable;
   PathForm form = PathForm::kParameters;
+  AnglesText angles;                    ///< of kAngles: the case's, or those of taut's own file
   std::vector<PathColumn> coordinates;  ///< in the form's order
   std::optional<PathColumn> time;
   /// For a table of cable lengths, the form of its first row's pose; nothing if it has none.

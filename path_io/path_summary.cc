@@ -61,7 +61,7 @@ std::string law_sentence(Interpolation law, const Problem& problem) {
 
 PathSummary::PathSummary(const Problem& problem, PathHeader header)
     : header_(std::move(header)),
-      angles_(problem.space.angles.kind),
+      angles_(header_.angles.kind),
       sampler_(problem),
       is_angle_(header_.coordinates.size()) {
   for (std::size_t j = 0; j < is_angle_.size(); ++j) {

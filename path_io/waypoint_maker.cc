@@ -58,7 +58,7 @@ WaypointMaker::WaypointMaker(const Problem& problem, const PathHeader& header, I
   is_converted_ = needs_angles || (law == Interpolation::kGeodesic && header.form != PathForm::kQuaternion) ||
                   (law == Interpolation::kCableLengths && !has_lengths);
   problem_.query.clear();
-  const AnglesText& angles = problem.space.angles;
+  const AnglesText& angles = header.angles;
   if (needs_angles && angles.kind != AngleKind::kTiltAndTorsion) {
     throw InputError(
         fmt::format("{}: got quaternions to be joined straight in {}, expected columns of these angles, or "

@@ -390,14 +390,19 @@ void add_plan_and_prove(py::module_& module) {
       "max_check_seconds"_a);
 }
 
+using Rounding = std::optional<std::pair<double, double>>;
+
 taut::AuditOptions audit_options(const std::optional<std::string>& interpolation, long max_bits,
-                                 const std::string& signing_key, double max_check_seconds, double headroom_seconds) {
+                                 const std::string& signing_key, double max_check_seconds, double headroom_seconds,
+                                 bool timed, const Rounding& rounding) {
   taut::AuditOptions options;
   if (interpolation) options.interpolation = interpolation_of(*interpolation);
   options.max_bits = max_bits;
   options.signing_key_pem = signing_key;
   options.max_check_seconds = max_check_seconds;
   options.headroom_seconds = headroom_seconds;
+  options.timed = timed;
+  if (rounding) options.rounding = {rounding->first, rounding->second};
   return options;
 }
 
@@ -406,9 +411,10 @@ void add_audits(py::module_& module) {
       "audit_file",
       [](const taut::Case& the_case, const std::optional<std::string>& file,
          const std::optional<std::string>& interpolation, long max_bits, const std::string& signing_key,
-         double max_check_seconds, double headroom_seconds, const py::object& progress) {
+         double max_check_seconds, double headroom_seconds, bool timed, const Rounding& rounding,
+         const py::object& progress) {
         taut::AuditOptions options =
-            audit_options(interpolation, max_bits, signing_key, max_check_seconds, headroom_seconds);
+            audit_options(interpolation, max_bits, signing_key, max_check_seconds, headroom_seconds, timed, rounding);
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
           options.stop = stop;
           options.progress = callback;
@@ -416,15 +422,16 @@ void add_audits(py::module_& module) {
         });
       },
       "case"_a, "file"_a, "interpolation"_a, "max_bits"_a, "signing_key"_a, "max_check_seconds"_a, "headroom_seconds"_a,
-      "progress"_a);
+      "timed"_a, "rounding"_a, "progress"_a);
   module.def(
       "audit_table",
       [](const taut::Case& the_case, std::vector<std::string> columns, const Array& values, const std::string& name,
          const std::optional<std::string>& interpolation, long max_bits, const std::string& signing_key,
-         double max_check_seconds, double headroom_seconds, const py::object& progress) {
+         double max_check_seconds, double headroom_seconds, bool timed, const Rounding& rounding,
+         const py::object& progress) {
         const taut::Table table = {std::move(columns), {values.data(), values.data() + values.size()}};
         taut::AuditOptions options =
-            audit_options(interpolation, max_bits, signing_key, max_check_seconds, headroom_seconds);
+            audit_options(interpolation, max_bits, signing_key, max_check_seconds, headroom_seconds, timed, rounding);
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
           options.stop = stop;
           options.progress = callback;
@@ -432,7 +439,7 @@ void add_audits(py::module_& module) {
         });
       },
       "case"_a, "columns"_a, "values"_a, "name"_a, "interpolation"_a, "max_bits"_a, "signing_key"_a,
-      "max_check_seconds"_a, "headroom_seconds"_a, "progress"_a);
+      "max_check_seconds"_a, "headroom_seconds"_a, "timed"_a, "rounding"_a, "progress"_a);
 }
 
 void add_sensitivity(py::module_& module) {

@@ -416,6 +416,12 @@ struct ProveOptions {
 /// @throws InputError where the path does not fit the case; Interrupted.
 [[nodiscard]] TAUT_EXPORT Certificate prove(const Case& the_case, const Path& path, const ProveOptions& options = {});
 
+/// How far rows of a table with times may be from the move that is fitted to them.
+struct Rounding {
+  double position_m = 0;  ///< by which the platform's origin may be displaced, above 0
+  double angle_rad = 0;   ///< by which the platform may be turned, above 0
+};
+
 struct AuditOptions {
   std::optional<Interpolation> interpolation;  ///< nothing: as the file suggests
   long max_bits = 4096;                        ///< precision beyond which the prover gives up; 128 at least
@@ -424,11 +430,17 @@ struct AuditOptions {
   std::stop_token stop = {};
   double max_check_seconds = kCheckSeconds;    ///< that the checker may take before the certificate is unchecked
   double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares; 0: they are not sought
+  /// Audit a move in time, in a case with the key `time`: a certificate's path with its law, or a move that is fitted
+  /// to a table of poses with times, within `rounding` of all its rows (docs/audits.md). There are no stretches then,
+  /// and no provable shares.
+  bool timed = false;
+  std::optional<Rounding> rounding = {};  ///< of a table; nothing: the case's own
 };
 
 /// Proves a path or says of every stretch that is not proved where it is and why: `taut audit`. The path is passed
-/// slowly, also where the case limits moves. Memory grows with the path here; the command's does not.
-/// @throws InputError with the file's line where the path is wrong; Interrupted.
+/// slowly, also where the case limits moves, unless it is audited in time. Memory grows with the path here; the
+/// command's does not.
+/// @throws InputError with the file's line where the path is wrong, or no move is within the rounding; Interrupted.
 [[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const std::string& path_file,
                                             const AuditOptions& options = {});
 /// A table of the caller's. @param name  stands for the file in messages, whose line 1 are the columns, and in the

@@ -28,7 +28,8 @@ void require_no_tolerance_of_load(const Cursor& tolerances, const ToleranceBound
 void read(const Cursor& json, Bodies& bodies);
 /// `problem.space` of a path whose law is one of poses: the free coordinates px py pz phi theta sigma.
 [[nodiscard]] const Json& coordinate_space();
-/// Whether a `space` is that of the free coordinates, with tilt-and-torsion angles or with those of a case's space.
+/// Whether a `space` is that of the free coordinates, with tilt-and-torsion angles, with roll, pitch and yaw, or with
+/// the angles of a case's space.
 [[nodiscard]] bool is_coordinate_space(const Json& space, const Json& of_case);
 
 /// Leaves out the sizes and ranges that the problem prescribes.

@@ -258,19 +258,25 @@ Problem read_problem(const Cursor& json) {
 }
 
 bool is_coordinate_space(const Json& space, const Json& of_case) {
-  if (space == coordinate_space()) return true;
-  if (!of_case.contains("angles")) return false;
-  Problem with_angles;
-  read_angles(Cursor(of_case["angles"], "angles"), with_angles);
-  Json expected = {{"angles", of_case["angles"]},  {"constants", Json::object()}, {"flip", nullptr},
-                   {"constraints", Json::array()}, {"parameters", Json::array()}, {"pose", Json::object()}};
-  for (const char* name : pose_names(with_angles.angles)) {
-    if (name == nullptr) continue;
-    const bool is_angle = expected["parameters"].size() >= 3;
-    expected["parameters"].push_back({{"name", name}, {"kind", is_angle ? "periodic" : "real"}});
-    expected["pose"][name] = name;
-  }
-  return space == expected;
+  const auto is_of = [&](const Json& angles) {
+    Problem with_angles;
+    read_angles(Cursor(angles, "angles"), with_angles);
+    Json expected = {{"angles", angles},
+                     {"constants", Json::object()},
+                     {"flip", nullptr},
+                     {"constraints", Json::array()},
+                     {"parameters", Json::array()},
+                     {"pose", Json::object()}};
+    for (const char* name : pose_names(with_angles.angles)) {
+      if (name == nullptr) continue;
+      const bool is_angle = expected["parameters"].size() >= 3;
+      expected["parameters"].push_back({{"name", name}, {"kind", is_angle ? "periodic" : "real"}});
+      expected["pose"][name] = name;
+    }
+    return space == expected;
+  };
+  if (space == coordinate_space() || is_of("roll-pitch-yaw")) return true;
+  return of_case.contains("angles") && is_of(of_case["angles"]);
 }
 
 const Json& coordinate_space() {

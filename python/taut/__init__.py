@@ -533,10 +533,11 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
           columns: Optional[Sequence[str]] = None, interpolation: Optional[str] = None,
           max_bits: int = 4096, signing_key: str = "", name: str = "table",
           max_check_seconds: float = CHECK_SECONDS, headroom_seconds: float = HEADROOM_SECONDS,
+          timed: bool = False, rounding: Optional[tuple[float, float]] = None,
           progress: Optional[Progress] = None) -> Certificate:
     """Proves a path, or lists every stretch that is not proved, with the reason: `taut audit`.
 
-    The path is passed slowly, also where the case limits moves.
+    The path is passed slowly, also where the case limits moves, unless it is audited in time.
 
     :param path: a path file or a certificate.json (docs/audits.md); None: the one that the case names; a mapping from
         columns to arrays, {"phi[deg]": …, "theta[deg]": …}; or an array (n, columns)
@@ -544,13 +545,16 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
     :param interpolation: "straight", "geodesic" or "cable-lengths"; None: as the file suggests
     :param name: name of a table, for messages and the certificate
     :param headroom_seconds: time limit for Certificate.headroom; 0: it is not sought
+    :param timed: audit a move in time: a certificate's path with its law, or a move that is fitted to a table of poses
+        with times. There are no stretches then, and no headroom.
+    :param rounding: how far rows of such a table may be from the move: by (metres, radians); None: the case's own
     """
     if path is None or isinstance(path, (str, os.PathLike)):
         if columns is not None:
             raise TypeError("columns are an array's: a file has its own")
         file = None if path is None else os.fspath(path)
         return Certificate._of(_taut.audit_file(case._case, file, interpolation, max_bits, signing_key,
-                                                max_check_seconds, headroom_seconds, progress))
+                                                max_check_seconds, headroom_seconds, timed, rounding, progress))
     if isinstance(path, Mapping):
         if columns is not None:
             raise TypeError("columns are an array's: a mapping has its own")
@@ -562,7 +566,8 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
     if values.shape[1] != len(columns):
         raise InputError(f"values: got {values.shape[1]} columns, expected {len(columns)}", field="values")
     return Certificate._of(_taut.audit_table(case._case, list(columns), values, name, interpolation,
-                                             max_bits, signing_key, max_check_seconds, headroom_seconds, progress))
+                                             max_bits, signing_key, max_check_seconds, headroom_seconds, timed,
+                                             rounding, progress))
 
 
 def sensitivity(case: Case, path: Optional[FileName] = None, *, interpolation: Optional[str] = None,

@@ -57,9 +57,12 @@ Html scope(const ReportContext& scene, const Summary& s) {
   }
   row("Move", html("{}", with_minus_signs(s.move)));
   if (const std::string file = audited_file(scene); !file.empty()) {
-    row("Path file", html("<bdi>{}</bdi>, SHA-256 <span class=\"digest\">{}</span>; <code>taut-check --path</code> "
-                          "compares it",
-                          file, scene.certificate.source->sha256));
+    const std::string table = table_text(scene);
+    const Html is_compared =
+        scene.certificate.path.timing ? Html() : html("; <code>taut-check --path</code> compares it");
+    row("Path file", html("<bdi>{}</bdi>, SHA-256 <span class=\"digest\">{}</span>{}", file,
+                          scene.certificate.source->sha256, is_compared));
+    if (!table.empty()) row("Rows", html("<bdi>{}</bdi>", table));
   }
   row("Load", load_words(s.load_name, s.load));
   for (const Statement& statement : s.statements) {

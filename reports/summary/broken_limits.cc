@@ -326,4 +326,14 @@ std::string audited_file(const ReportContext& scene) {
   return source ? std::filesystem::path(source->file).filename().string() : "";
 }
 
+std::string table_text(const ReportContext& scene) {
+  const auto& table = scene.illustration.table;
+  if (!table || !scene.certificate.source || !scene.certificate.path.timing) return "";
+  return fmt::format(
+      "The move was fitted to the table {}: all {} of its rows lie within {} and {} of it at their times, says the "
+      "program that fitted it; the checker is not told of rows. The rows' last digits, and how a drive joins the "
+      "rows, are no part of the move.",
+      audited_file(scene), table->rows, table->position, table->angle);
+}
+
 }  // namespace taut

@@ -63,5 +63,8 @@ struct BrokenLimit {
 [[nodiscard]] std::string rows_text(const ReportContext& scene, double position);
 /// "robot1-bridging.csv": the name of that file, which nothing checks; empty where the path is of no file.
 [[nodiscard]] std::string audited_file(const ReportContext& scene);
+/// Of a move that was fitted to a table with times: what the rows have to do with it, as the program that audited it
+/// says. Else empty.
+[[nodiscard]] std::string table_text(const ReportContext& scene);
 
 }  // namespace taut

@@ -46,6 +46,24 @@ DocumentFields document_fields_from_json(const nlohmann::json& fields) {
   return result;
 }
 
+namespace {
+
+/// Nothing where it is not as taut writes it: anybody can alter an illustration.
+std::optional<Illustration::Table> table_from_json(const nlohmann::json& table) {
+  if (!table.is_object() || !table.contains("rows") || !table["rows"].is_number_unsigned()) return std::nullopt;
+  const nlohmann::json rounding = table.value("rounding", nlohmann::json());
+  const auto text = [&](const char* key) -> std::string {
+    if (!rounding.is_object() || !rounding.contains(key) || !rounding[key].is_string()) return "";
+    const auto& stated = rounding[key].get_ref<const std::string&>();
+    return is_label(stated) ? stated : "";
+  };
+  Illustration::Table result{table["rows"].get<std::size_t>(), text("position"), text("angle")};
+  if (result.position.empty() || result.angle.empty()) return std::nullopt;
+  return result;
+}
+
+}  // namespace
+
 Illustration::Illustration(const nlohmann::json& json, std::size_t parameters) {
   const JsonCursor illustration(json, "illustration");
   if (!illustration.value().is_object()) return;
@@ -62,6 +80,7 @@ Illustration::Illustration(const nlohmann::json& json, std::size_t parameters) {
     }
   }
   if (illustration.contains("lines")) lines = FileLines(illustration.at("lines").value());
+  if (illustration.contains("table")) table = table_from_json(illustration.at("table").value());
   if (illustration.contains("headroom")) headroom = headroom_from_json(illustration.at("headroom"));
   if (!illustration.contains("charts") || parameters != 2) return;
   for (const JsonCursor& entry : illustration.at("charts").elements()) {

@@ -24,7 +24,14 @@ struct Illustration {
     std::vector<std::array<double, 2>> corners;
   };
 
+  /// A table to which the move was fitted.
+  struct Table {
+    std::size_t rows = 0;
+    std::string position, angle;  ///< its stated rounding
+  };
+
   std::optional<Headroom> headroom;
+  std::optional<Table> table;
   std::vector<Chart> charts;                 ///< none unless the space has two parameters
   std::map<std::string, std::string> stats;  ///< of the search, as printed
   DisplayUnits units;                        ///< the case's, in which the report shows results

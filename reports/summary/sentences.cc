@@ -12,6 +12,7 @@
 #include "problem/decimal.h"
 #include "reports/summary/around_items.h"
 #include "reports/summary/bodies_statement.h"
+#include "reports/summary/broken_limits.h"
 #include "reports/summary/explanations.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
@@ -265,8 +266,9 @@ std::string motion_text(const ReportContext& scene) {
   if (path.waypoints.empty() || found_no_path(scene.certificate) || path.segments() == 0) return move_text(scene);
   const auto segments = static_cast<double>(path.segments());
   const auto pose = [&](double position) { return pose_text(scene, scene.sampler.at(path, position).pose); };
-  return fmt::format("{} From {} to {}. Positions and angles here are rounded, and angles are up to whole turns.",
-                     move_text(scene), pose(0), pose(segments));
+  const std::string table = table_text(scene);
+  return fmt::format("{} From {} to {}. Positions and angles here are rounded, and angles are up to whole turns.{}{}",
+                     move_text(scene), pose(0), pose(segments), table.empty() ? "" : " ", table);
 }
 
 /// "above 0.05 N and below 0.5 N", for all six cables; or of each: "above … (cables 1, 2 and 5), above … (cable 3)".

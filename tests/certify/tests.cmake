@@ -21,6 +21,7 @@ taut_add_test(certify tolerance LABELS unit LIBS taut::case taut::certify fmt::f
 taut_add_test(certify loads LABELS unit LIBS taut::certify fmt::fmt)
 taut_add_test(certify moving LABELS unit LIBS taut::case taut::certify fmt::fmt)
 taut_add_test(certify time LABELS unit LIBS taut::case taut::certify)
+taut_add_test(certify row_distance LABELS unit LIBS taut::case taut::certify)
 taut_add_test(certify headroom LABELS unit LIBS taut::case taut::certify)
 taut_add_test(certify free_ends LABELS unit LIBS taut::case taut::certify)
 taut_add_test(certify sensitivity LABELS unit LIBS taut::case taut::certify)

@@ -97,6 +97,11 @@ class Json(InFolder):
             with self.subTest(os.path.basename(case)):
                 code = {"proved": 0, "refuted": 1, "undecided": 2}[expected(case)]
                 self.printed(TAUT, "audit", case, "--out", self.path("out"), code=code)
+        for name, code in (("portal-20t-table", 0), ("portal-20t-table-fast", 1)):
+            case = os.path.join(CASES, "moves", name + ".yaml")
+            audited = self.printed(TAUT, "audit", case, "--out", self.path(name), "--no-report", code=code)
+            self.assertEqual(audited["table"]["lines"][0], 3)
+            self.assertEqual(audited["move"]["witness_s"] is None, code == 0)
 
     def test_sensitivities(self):
         self.assertEqual(self.printed(TAUT, "sensitivity", ROBOT1, code=0)["verdict"], "proved")

@@ -270,6 +270,27 @@ TEST(PathFile, OwnPathsMustFitTheCase) {
   expect_rejected("waypoint,x.phi,x.theta,half_turns.phi,half_turns.theta,x.s\n", "got the unknown column 'x.s'");
 }
 
+TEST(PathFile, AFittedMoveHasRollPitchAndYawInAnyCase) {
+  const std::string own =
+      "control_point,x.px,x.py,x.pz,x.roll,x.pitch,x.yaw,half_turns.px,half_turns.py,half_turns.pz,"
+      "half_turns.roll,half_turns.pitch,half_turns.yaw,px[m],py[m],pz[m],roll[rad],pitch[rad],yaw[rad]\n";
+  for (const SpaceText& space : {slice(), coordinate_space(), sphere()}) {
+    const Read path = read(own + "0,1,2,3,4,5,6,0,0,0,2,2,-2,1,2,3,4,5,6\n", space);
+    EXPECT_EQ(path.header.form, PathForm::kAngles);
+    EXPECT_EQ(path.header.angles.kind, AngleKind::kRollPitchYaw);
+    EXPECT_THAT(path.rows[0].x, ElementsAre(1, 2, 3, 4, 5, 6));
+    EXPECT_THAT(path.rows[0].half_turns, ElementsAre(0, 0, 0, 2, 2, -2));
+  }
+  EXPECT_EQ(read("phi[rad],theta[rad]\n1,2\n").header.angles.kind, AngleKind::kTiltAndTorsion);
+}
+
+TEST(PathFile, ATableOfWinchRatesIsNoPath) {
+  expect_rejected("t[s],l1[m],l2[m],l3[m],l4[m],l5[m],l6[m],v1[m/s],a1[m/s^2]\n0,1,1,1,1,1,1,0,0\n",
+                  "got the column 'v1', a rate of a winch, expected a path: that of a winches.csv of taut is in the "
+                  "poses.csv beside it");
+  expect_rejected("phi[rad],theta[rad],v7\n", "got the unknown column 'v7'");
+}
+
 TEST(PathFile, FilesThatAreNone) {
   EXPECT_THAT([] { PathFile("/tmp", slice()); }, ThrowsMessage<InputError>(HasSubstr("/tmp: got a directory")));
   EXPECT_THAT([] { PathFile("/nowhere/x.csv", slice()); },

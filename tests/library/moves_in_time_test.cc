@@ -218,6 +218,45 @@ TEST(MoveInTime, IsRunAtAShareOrAsFastAsIsProved) {
   EXPECT_GE(plan.witness->value_lower, plan.witness->limit);
 }
 
+TEST(MoveInTime, IsAuditedFromItsOwnPoses) {
+  const taut::Table poses = planned().poses(50);
+  taut::AuditOptions options;
+  options.timed = true;
+  options.rounding = taut::Rounding{1e-5, 1e-5};
+  const Certificate audited = taut::audit(crane(kLimits), poses, options);
+  ASSERT_EQ(audited.verdict(), Verdict::kProved) << audited.reason();
+  EXPECT_NEAR(audited.duration_s().value(), planned().duration_s().value(), 1e-9);
+  EXPECT_TRUE(audited.stretches().empty());
+  EXPECT_EQ(audited.path().interpolation, taut::Interpolation::kSpline);
+  EXPECT_EQ(audited.path().timing->controls.size(), audited.path().waypoints.size());
+
+  taut::Table fast = poses;
+  for (std::size_t i = 0; i < fast.values.size(); i += fast.columns.size()) fast.values[i] /= 2;
+  const Certificate refuted = taut::audit(crane(kLoadSpeed), fast, options);
+  ASSERT_EQ(refuted.verdict(), Verdict::kRefuted) << refuted.reason();
+  EXPECT_EQ(refuted.theorem()->witness()->kind, "load_speed");
+
+  const auto field_of = [&](taut::AuditOptions wrong, const char* limits = kLimits) -> std::string {
+    try {
+      (void)taut::audit(crane(limits), poses, wrong);
+    } catch (const taut::InputError& error) {
+      return error.field().empty() ? error.what() : error.field();
+    }
+    return "no error";
+  };
+  taut::AuditOptions wrong = options;
+  wrong.rounding = taut::Rounding{1e-5, 0};
+  EXPECT_EQ(field_of(wrong), "rounding.angle_rad");
+  wrong.rounding = taut::Rounding{std::numeric_limits<double>::quiet_NaN(), 1e-5};
+  EXPECT_EQ(field_of(wrong), "rounding.position_m");
+  wrong.rounding.reset();
+  EXPECT_THAT(field_of(wrong), HasSubstr("no rounding"));
+  wrong = options;
+  wrong.timed = false;
+  EXPECT_EQ(field_of(wrong), "rounding");
+  EXPECT_THAT(field_of(options, ""), HasSubstr("without the key 'time'"));
+}
+
 TEST(MoveInTime, SaysWhatIsWrong) {
   const taut::Case at_rest = crane(""), in_time = crane(kLimits);
   const auto field_of_plan = [](const taut::Case& the_case, double share, bool greatest) {

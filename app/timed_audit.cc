@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/timed_audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "app/meshes.h"
+#include "app/path_hints.h"
+#include "app/prove.h"
+#include "base/input_error.h"
+#include "base/plural.h"
+#include "base/sanitize.h"
+#include "base/sha256.h"
+#include "certificate/certificate_writer.h"
+#include "certify/row_distance.h"
+#include "kinematics/move_sampler.h"
+#include "kinematics/pose_conversion.h"
+#include "path_io/path_file.h"
+#include "path_io/path_summary.h"
+#include "planner/move_fit.h"
+#include "reports/summary/illustration.h"
+#include "reports/summary/shown_bodies.h"
+
+namespace taut {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// "0.0123 mm": a bound, rounded up.
+std::string millimetres_above(double metres) {
+  const double digits = std::pow(10, 2 - std::floor(std::log10(std::max(metres * 1e3, 1e-12))));
+  return fmt::format("{:.3g} mm", std::ceil(metres * 1e3 * digits) / digits);
+}
+std::string degrees_above(double radians) {
+  const double degrees = radians * 180 / kPi;
+  const double digits = std::pow(10, 2 - std::floor(std::log10(std::max(degrees, 1e-12))));
+  return fmt::format("{:.3g} deg", std::ceil(degrees * digits) / digits);
+}
+
+/// Roll, pitch and yaw [rad] of R(q), roll and yaw by whole turns next to `previous`. Near a pitch of ±90 degrees only
+/// one of roll and yaw matters.
+std::array<double, 3> roll_pitch_yaw(const Eigen::Quaterniond& q,
+                                     const std::optional<std::array<double, 3>>& previous) {
+  const Matrix3<double> r = q.toRotationMatrix();
+  std::array<double, 3> result = {std::atan2(r(2, 1), r(2, 2)), std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0))),
+                                  std::atan2(r(1, 0), r(0, 0))};
+  if (!previous) return result;
+  for (const std::size_t i : {0U, 2U}) result[i] += 2 * kPi * std::round(((*previous)[i] - result[i]) / (2 * kPi));
+  return result;
+}
+
+/// Reads a table with times whole, and fits a move to it.
+class TableReader {
+ public:
+  TableReader(const Problem& problem, const PathInput& input, const TableRounding& rounding)
+      : problem_(problem), name_(input.name), bytes_(bytes_of(input)), rounding_(rounding) {
+    problem_.query.clear();
+  }
+
+  MoveSource read() {
+    read_rows();
+    choose_space();
+    MoveSource source;
+    const MoveFit fit = fitted();
+    source.problem = problem_;
+    source.path = fit.path;
+    source.table = table(fit);
+    Sha256 digest;
+    digest.update(bytes_);
+    source.origin = {excerpt(std::filesystem::path(name_).filename().string()), digest.hex()};
+    source.description = fmt::format("Read {}: {}Fitted: a cubic B-spline in {} pieces of {:.4g} s{}. {}\n",
+                                     sanitize(name_), summary_, fit.path.segments(), fit.path.timing->step_s,
+                                     source.table->angles.empty() ? "" : ", in position and " + source.table->angles,
+                                     row_sentence(*source.table));
+    source.remarks = column_hint_;
+    return source;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const { throw InputError(name_ + ": " + message, {name_}); }
+  [[noreturn]] void fail(std::size_t line, const std::string& message) const {
+    throw InputError(fmt::format("{}:{}: {}", name_, line, message), {name_, line});
+  }
+
+  void read_rows() {
+    PathFile file(std::make_unique<std::istringstream>(bytes_), name_, problem_.space);
+    header_ = file.header();
+    if (header_.format == PathFormat::kTautControlPoints) {
+      fail(
+          "got a spline's control points, which have no times, expected the certificate of a move or a table of poses "
+          "with times");
+    }
+    if (header_.form == PathForm::kCableLengths) {
+      fail(
+          "got cable lengths, expected poses (px, py, pz and angles or a quaternion, or the case's parameters): a move "
+          "is fitted to poses only");
+    }
+    if (!header_.time) {
+      fail("got no column t, expected one with the time of each row, such as t[s]: the audit is of a move in time");
+    }
+    PathSummary summary(problem_, header_);
+    for (PathRow row; file.next(row);) {
+      if (rows_.empty()) column_hint_ = column_hint(PoseSampler(problem_), header_, row);
+      summary.add(row);
+      rows_.push_back(row);
+    }
+    summary_ = summary.text();
+    if (rows_.size() < kLeastFittedRows) {
+      fail(
+          fmt::format("got {}, expected at least {} of a move in time", plural(rows_.size(), "row"), kLeastFittedRows));
+    }
+  }
+
+  /// The space of the fit: the rows' own parameters or angles; for quaternions three angles that are clear all along.
+  void choose_space() {
+    if (header_.form == PathForm::kAngles) problem_.space = coordinate_space(header_.angles);
+    if (header_.form != PathForm::kQuaternion) {
+      for (const PathRow& row : rows_) {
+        std::vector<double>& x = parameters_.emplace_back(row.x);
+        for (std::size_t j = 0; j < x.size(); ++j) x[j] += kPi * row.half_turns[j];
+      }
+      return;
+    }
+    constexpr double kClear = 10 * kPi / 180;  // of where two of three angles turn about one axis
+    if (is_clear_in(AngleKind::kRollPitchYaw, kClear)) return;
+    if (is_clear_in(AngleKind::kTiltAndTorsion, kClear)) return;
+    fail(
+        "got quaternions that are neither clear of a pitch of 90 degrees nor of a tilt of 0 or 180 degrees, expected "
+        "columns of the case's own parameters or angles");
+  }
+
+  [[nodiscard]] bool is_clear_in(AngleKind kind, double clear) {
+    parameters_.clear();
+    std::optional<std::array<double, 3>> rpy;
+    std::optional<TiltAndTorsion> tilted;
+    for (const PathRow& row : rows_) {
+      const std::vector<double>& x = row.x;
+      const Eigen::Quaterniond q = Eigen::Quaterniond(x[6], x[3], x[4], x[5]).normalized();
+      std::array<double, 3> angles{};
+      bool is_clear = false;
+      if (kind == AngleKind::kRollPitchYaw) {
+        rpy = roll_pitch_yaw(q, rpy);
+        angles = *rpy;
+        is_clear = std::abs(angles[1]) < kPi / 2 - clear;
+      } else {
+        tilted = tilt_and_torsion(q, tilted);
+        angles = {tilted->value(0), tilted->value(1), tilted->value(2)};
+        is_clear = std::abs(std::sin(angles[1])) > std::sin(clear);
+      }
+      if (!is_clear) return false;
+      parameters_.push_back({x[0], x[1], x[2], angles[0], angles[1], angles[2]});
+    }
+    problem_.space = coordinate_space({kind});
+    angles_ = angles_text(kind);
+    return true;
+  }
+
+  [[nodiscard]] Rational since_begin(const PathRow& row) const {
+    return row.time_s->rational() - rows_.front().time_s->rational();
+  }
+
+  MoveFit fitted() {
+    std::vector<TimedRow> rows;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      rows.push_back({since_begin(rows_[i]).convert_to<double>(), parameters_[i]});
+    }
+    times_s_.clear();
+    for (const TimedRow& row : rows) times_s_.push_back(row.time_s);
+    if (std::ranges::adjacent_find(times_s_, std::ranges::greater_equal()) != times_s_.end()) {
+      fail("got times that are nearer to each other than binary64 can tell, expected a move in time");
+    }
+    const RowRounding rounding = {rounding_.position_m, rounding_.angle_rad};
+    MoveFit fit = fit_move(problem_, rows, since_begin(rows_.back()), rounding);
+    if (fit.worst.share <= 1) return fit;
+    if (const auto end = moving_end(problem_, rows, rounding)) {
+      fail(
+          (end->is_last ? rows_.back() : rows_.front()).line,
+          fmt::format("got a platform that {} at {:.3g} m/s and {:.3g} deg/s in the {} row, expected a move that {} at "
+                      "rest",
+                      end->is_last ? "still goes" : "goes", end->speed_m_s, end->angular_speed_rad_s * 180 / kPi,
+                      end->is_last ? "last" : "first", end->is_last ? "ends" : "begins"));
+    }
+    complain_of_row(fit.worst.row, fit.worst.position_m, fit.worst.angle_rad, fit.path.segments());
+  }
+
+  [[noreturn]] void complain_of_row(std::size_t row, double position_m, double angle_rad, std::size_t pieces) const {
+    constexpr double kMore = 1.2;
+    fail(
+        rows_[row].line,
+        fmt::format("got a row that is {} and {} off the nearest smooth move (a spline in {}, no more than one for two "
+                    "rows), expected one within the stated rounding of {} and {}. The rounding that would do for this "
+                    "row: {},{}; or is the row, or one next to it, wrong?",
+                    millimetres_above(position_m), degrees_above(angle_rad), plural(pieces, "piece"),
+                    rounding_.position, rounding_.angle,
+                    position_m > rounding_.position_m ? millimetres_above(kMore * position_m) : rounding_.position,
+                    angle_rad > rounding_.angle_rad ? degrees_above(kMore * angle_rad) : rounding_.angle));
+  }
+
+  /// Proves how far each row is from the move.
+  [[nodiscard]] FittedTable table(const MoveFit& fit) const {
+    FittedTable table;
+    table.rounding = rounding_;
+    table.begin_s = rows_.front().time_s.value();
+    const TimeLaw& law = fit.path.timing.value();
+    table.duration_off_s =
+        Rational(Rational(law.step_s) * law.pieces() - since_begin(rows_.back())).convert_to<double>();
+    table.times_s = times_s_;
+    table.angles = angles_;
+    const RowDistances distances(problem_, fit.path);
+    for (const PathRow& row : rows_) {
+      const std::size_t i = table.lines.size();
+      table.lines.push_back(row.line);
+      const auto off = distances.at(since_begin(row), {header_.form == PathForm::kQuaternion, row.x, row.half_turns});
+      if (!off) fail(row.line, "got a pose beyond what can be enclosed, expected numbers of a usual size");
+      if (!(off->position_m <= rounding_.position_m && off->angle_rad <= rounding_.angle_rad)) {
+        complain_of_row(i, off->position_m, off->angle_rad, fit.path.segments());
+      }
+      if (i == 0 || off->position_m > table.position_m) {
+        table.position_m = off->position_m;
+        table.position_line = row.line;
+      }
+      if (i == 0 || off->angle_rad > table.angle_rad) {
+        table.angle_rad = off->angle_rad;
+        table.angle_line = row.line;
+      }
+    }
+    return table;
+  }
+
+  Problem problem_;
+  std::string name_, bytes_;
+  TableRounding rounding_;
+  PathHeader header_;
+  std::vector<PathRow> rows_;
+  std::vector<std::vector<double>> parameters_;  ///< of the rows in the space of the fit
+  std::vector<double> times_s_;
+  std::string summary_, column_hint_, angles_;
+};
+
+/// The line of the row that a knot is at or behind, for each of the knots.
+FileLines knot_lines(const FittedTable& table, const TimeLaw& law) {
+  FileLines lines;
+  for (std::size_t k = 0; k <= law.pieces(); ++k) lines.add(table.lines_at(law.step_s * static_cast<double>(k)).first);
+  return lines;
+}
+
+}  // namespace
+
+std::pair<std::size_t, std::size_t> FittedTable::lines_at(double time_s) const {
+  const auto behind = static_cast<std::size_t>(std::ranges::lower_bound(times_s, time_s) - times_s.begin());
+  if (behind == times_s.size()) return {lines.back(), lines.back()};
+  if (behind == 0 || times_s[behind] == time_s) return {lines[behind], lines[behind]};
+  return {lines[behind - 1], lines[behind]};
+}
+
+MoveSource read_move(const Problem& problem, const PathInput& input, const std::optional<TableRounding>& rounding) {
+  if (input.text || !is_certificate_name(input.name)) {
+    if (!rounding) {
+      throw InputError(
+          input.name +
+              ": got a table and no rounding, expected how far its rows may be from the move that is fitted "
+              "to them (--rounding 0.1mm,0.01deg, or audit.rounding in the case): accelerations do not "
+              "follow from digits",
+          {input.name});
+    }
+    return TableReader(problem, input, *rounding).read();
+  }
+  if (rounding) {
+    throw InputError(input.name + ": got a certificate and a rounding, expected no rounding: its path is exact",
+                     {input.name});
+  }
+  const PathSource source(problem, input, std::nullopt, true);
+  return {source.problem(), source.whole_path(), source.source(), source.description(), source.remarks(), std::nullopt};
+}
+
+std::string row_sentence(const FittedTable& table) {
+  const std::string zero =
+      table.begin_s.sign() == 0 ? "" : fmt::format(" The move's time 0 is {} s in the table.", table.begin_s.text());
+  return fmt::format(
+      "All {} lie within {} and {} of this move at their times (at most {}, line {}, and {}, line {}).{} The move is "
+      "what is audited: neither the rows' last digits nor how a drive joins the rows are part of it.",
+      plural(table.lines.size(), "row"), table.rounding.position, table.rounding.angle,
+      millimetres_above(table.position_m), table.position_line, degrees_above(table.angle_rad), table.angle_line, zero);
+}
+
+nlohmann::json to_json(const FittedTable& table) {
+  return {{"rows", table.lines.size()},
+          {"lines", {table.lines.front(), table.lines.back()}},
+          {"begin_s", table.begin_s.text()},
+          {"duration_off_s", table.duration_off_s},
+          {"rounding", {{"position", table.rounding.position}, {"angle", table.rounding.angle}}},
+          {"position_m", table.position_m},
+          {"position_line", table.position_line},
+          {"angle_rad", table.angle_rad},
+          {"angle_line", table.angle_line}};
+}
+
+void require_timed(const AuditRequest& request, const Case& the_case, const std::string& option) {
+  if (!the_case.problem.time) {
+    throw InputError(ErrorCode::kUse,
+                     fmt::format("{}: got a case without the key 'time', expected one that says what winches and load "
+                                 "may do (docs/case-format.md)",
+                                 option));
+  }
+  if (request.law) {
+    throw InputError(ErrorCode::kUse, fmt::format("{}: got a law between rows, too, expected none: a move is fitted to "
+                                                  "the rows",
+                                                  option));
+  }
+}
+
+TimedAudit audit_move(const MoveSource& source, const Case& the_case, const TimedAuditOptions& options,
+                      const std::stop_token& stop) {
+  const auto begin = std::chrono::steady_clock::now();
+  TimedAudit audit;
+  const Decoration decoration = read_meshes(the_case.decoration);
+  audit.certificate = prove_waypoints(source.problem, source.path, options.max_bits, stop);
+  audit.prove_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  audit.interrupted = stop.stop_requested();
+  if (audit.interrupted) return audit;
+  Certificate& certificate = audit.certificate;
+  certificate.source = source.origin;
+  certificate.illustration = {{"kind", "audit"}};
+  add_stated(certificate.illustration, the_case, decoration);
+  if (source.table) {
+    const TableRounding& rounding = source.table->rounding;
+    certificate.illustration["table"] = {{"rows", source.table->lines.size()},
+                                         {"begin_s", source.table->begin_s.text()},
+                                         {"rounding", {{"position", rounding.position}, {"angle", rounding.angle}}}};
+    certificate.illustration["lines"] = knot_lines(*source.table, *source.path.timing).to_json();
+  }
+  if (certificate.witness) {
+    const PathPoint& at = certificate.witness->violation.at;
+    audit.witness_s = MoveSampler::time_of(*source.path.timing, at.index + (at.on_segment ? at.s.approx() : 0));
+  }
+  audit.text = certificate_text(certificate, options.key);
+  audit.checked = recheck(audit.text, options.max_seconds, stop, meshes_of(the_case.problem));
+  require_confirmed(audit.checked);
+  audit.interrupted = stop.stop_requested();
+  return audit;
+}
+
+}  // namespace taut

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "case/table_rounding.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "base/input_error.h"
+#include "base/sanitize.h"
+#include "problem/nearest_si.h"
+
+namespace taut {
+namespace {
+
+constexpr double kLeast = 1e-12;
+constexpr double kMostMetres = 1;
+constexpr double kMostRadians = 0.2;
+
+bool is_sensible(double size, Dimension dimension) {
+  return size >= kLeast && size <= (dimension == Dimension::kLength ? kMostMetres : kMostRadians);
+}
+
+}  // namespace
+
+std::string rounding_expected(Dimension dimension) {
+  return dimension == Dimension::kLength
+             ? fmt::format("a length from {} m to {} m, such as 0.1 mm", kLeast, kMostMetres)
+             : fmt::format("an angle from {} to {} rad, such as 0.01 deg", kLeast, kMostRadians);
+}
+
+std::optional<RoundingSize> read_rounding_size(const std::string& text, Dimension dimension,
+                                               const std::optional<Unit>& bare) {
+  auto [number, unit] = split_unit(text);
+  if (!unit) unit = bare;
+  if (!unit || unit->dimension != dimension) return std::nullopt;
+  try {
+    const double nearest = NearestSi(*unit)(number);
+    if (!is_sensible(nearest, dimension)) return std::nullopt;
+    return RoundingSize{std::nextafter(nearest, 0.0), fmt::format("{} {}", number, unit->name)};
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+TableRounding read_table_rounding(const std::string& text, const std::string& option) {
+  const std::size_t comma = text.find(',');
+  const auto read = [&](std::string part, Dimension dimension) {
+    while (part.starts_with(' ')) part.erase(0, 1);
+    while (part.ends_with(' ')) part.pop_back();
+    return read_rounding_size(part, dimension);
+  };
+  const auto position = read(text.substr(0, comma), Dimension::kLength);
+  const auto angle = read(comma == std::string::npos ? "" : text.substr(comma + 1), Dimension::kAngle);
+  if (!position || !angle) {
+    throw InputError(ErrorCode::kUse,
+                     fmt::format("{}: got '{}', expected {}, and {}, as in 0.1mm,0.01deg", option, excerpt(text),
+                                 rounding_expected(Dimension::kLength), rounding_expected(Dimension::kAngle)));
+  }
+  return {position->si, angle->si, position->text, angle->text};
+}
+
+TableRounding table_rounding(double position_m, double angle_rad) {
+  for (const auto& [field, size, dimension] : {std::tuple("rounding.position_m", position_m, Dimension::kLength),
+                                               std::tuple("rounding.angle_rad", angle_rad, Dimension::kAngle)}) {
+    if (is_sensible(size, dimension)) continue;
+    throw InputError(fmt::format("{}: got {}, expected {}", field, size, rounding_expected(dimension)), {"", 0, field});
+  }
+  return {position_m, angle_rad, fmt::format("{} m", position_m), fmt::format("{} rad", angle_rad)};
+}
+
+}  // namespace taut

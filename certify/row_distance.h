@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far a row of a table is from where a move is at the row's time, proved.
+//
+// Claim.  The bounds hold for the row's exact decimals, of which its numbers are the nearest binary64, and for the move
+// of exactly these control points at exactly that time.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "kinematics/segment.h"
+#include "problem/problem.h"
+#include "problem/rational.h"
+
+namespace taut {
+
+/// A pose in the numbers of a table.
+struct RowPose {
+  bool is_quaternion = false;   ///< px, py, pz [m], qx, qy, qz, qw; else the parameters of the space [m, rad]
+  std::vector<double> x;        ///< each next to what was typed, in SI
+  std::vector<int> half_turns;  ///< of parameters
+};
+
+/// Upper bounds: by so much the platform's origin is displaced, and the platform turned.
+struct PoseDistance {
+  double position_m = 0;
+  double angle_rad = 0;
+};
+
+class RowDistances {
+ public:
+  /// @param path  of `problem`'s parameters: straight segments or a spline, with the law σ(t) = t/h, so that a law's
+  ///              control value i is i − 1; outlives this
+  /// @throws InputError where the law is another one.
+  RowDistances(const Problem& problem, const Path& path);
+  ~RowDistances();
+  RowDistances(const RowDistances&) = delete;
+  RowDistances& operator=(const RowDistances&) = delete;
+
+  /// @param time_s  of the move, exactly; before and after it the platform rests at its ends
+  /// @returns nothing where a number is beyond what can be enclosed.
+  [[nodiscard]] std::optional<PoseDistance> at(const Rational& time_s, const RowPose& row) const;
+
+ private:
+  struct Enclosures;
+  const Path& path_;
+  std::unique_ptr<const Enclosures> enclosures_;
+};
+
+}  // namespace taut
