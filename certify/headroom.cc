@@ -367,7 +367,8 @@ Headroom find_headroom(const Problem& problem, const Path& path, Verdict verdict
   const std::vector<Uncertainty> kinds = sought(problem, verdict, prover.is_length_controlled(path.interpolation));
   const Sampling sampling(prover, path, segments, kinds);
   result.tightest = sampling.tightest();
-  // The margin scales K. With items that is something else: the two tolerances of a weight multiply. (A move has items.)
+  // The margin scales K. With items, as each move has them, that is something else: the two tolerances of a weight
+  // multiply.
   if (verdict == Verdict::kProved && !problem.tolerances && problem.load.items.empty() && !wrench_scale.empty()) {
     result.shares = {{UncertaintyKind::kAll, 1, wrench_scale, rounded_down(number(wrench_scale))}};
     return result;

@@ -52,8 +52,8 @@ class LineReader {
 class MeasurementTable {
  public:
   /// @param line  "t[s],L1[mm],L2[mm],…": names of docs/monitor.md, each once, with units in brackets or SI without;
-  /// commas, semicolons or tabs between; `segment`, `s`, `v1` and so on, of the planner's own tables, are left out. @throws
-  /// InputError naming file and line.
+  /// commas, semicolons or tabs between; `segment`, `s`, `v1` and so on, of the planner's own tables, are left out.
+  /// @throws InputError naming file and line.
   MeasurementTable(std::string_view line, const std::string& file, std::size_t number);
 
   /// One row; or what is wrong with it, in `complaint`. Its time has to be at or after the last good row's.
