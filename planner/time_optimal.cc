@@ -468,13 +468,16 @@ TimeLaw joined(const std::vector<Run>& runs, double window) {
   TimeLaw law{step, {}};
   for (const Run& run : runs) {
     const auto begin = static_cast<double>(run.first()), end = static_cast<double>(run.segments());
-    // A mean begins and ends by half a window before and after.
-    const double duration = run.duration() + window;
+    // A mean begins and ends by half a window before and after. Where the law rests, three values are equal; what that
+    // cuts off the second one would be a jerk at the third, which 0.4 of a step more avoids.
+    constexpr double kLead = 0.4;
+    const double before = window / 2 + (run.stands()[0] ? 0 : kLead * step);
+    const double duration = run.duration() + before + window / 2 + (run.stands()[1] ? 0 : kLead * step);
     const auto pieces = static_cast<std::size_t>(std::max(4.0, std::ceil(duration / step)));
     const double stretch = duration / (static_cast<double>(pieces) * step);
     std::vector<double> values;
     for (std::size_t k = 0; k <= pieces; ++k) {
-      const double t = static_cast<double>(k) * step * stretch - window / 2;
+      const double t = static_cast<double>(k) * step * stretch - before;
       values.push_back(rounded(std::clamp(run.mean_at(t, window), 0.0, end)));
     }
     values.front() = 0;
@@ -563,25 +566,33 @@ std::optional<TimedMove> time_optimal(const Path& path, const TimedPathProblem& 
     const double window = window_within(problem.limits.jerk, runs, duration);
     move.law = joined(runs, window);
 
-    double most = 0;
+    double most = 0, most_jerk = 0;
+    std::optional<Vector> before;
     constexpr std::size_t kSamplesOfAPiece = 4, kLeastSamples = 6000;
     const std::size_t samples = std::max(kSamplesOfAPiece * move.law.pieces(), kLeastSamples);
+    const double apart = move.law.duration_s() / static_cast<double>(samples);
     for (std::size_t k = 0; k <= samples; ++k) {
-      const LawPoint at =
-          at_time(move.law, move.law.duration_s() * (static_cast<double>(k) / static_cast<double>(samples)));
+      const LawPoint at = at_time(move.law, static_cast<double>(k) * apart);
       const double s = std::clamp(at.s, 0.0, static_cast<double>(path.segments()));
       const std::size_t segment = std::min(static_cast<std::size_t>(s), path.segments() - 1);
-      const double used = usage(problem, sampler, rates.at(path.segment(segment), s - static_cast<double>(segment)),
-                                at.rate, at.acceleration, s) *
-                          tightening_at(problem, s) / (1 - problem.slack);
+      const PathRates<double> by_s = rates.at(path.segment(segment), s - static_cast<double>(segment));
+      const double used =
+          usage(problem, sampler, by_s, at.rate, at.acceleration, s) * tightening_at(problem, s) / (1 - problem.slack);
       most = std::max(most, used);
-      if (!(used > 1)) continue;
+      const Vector acceleration =
+          acceleration_at(by_time(by_s, at.rate, at.acceleration), Vector(by_s.r_WP * sampler.model().p_PM));
+      const double jerk = before ? (acceleration - *before).norm() / apart / problem.limits.jerk : 0;
+      before = acceleration;
+      most_jerk = std::max(most_jerk, jerk);
+      // A jerk goes with the cube of the rate, an acceleration with its square.
+      const double excess = std::max(used, std::pow(jerk, 2.0 / 3));
+      if (!(excess > 1)) continue;
       const auto run =
           std::ranges::find_if(runs, [&](const Run& part) { return segment < part.first() + part.segments(); });
-      run->tighten(s - static_cast<double>(run->first()), used, window);
+      run->tighten(s - static_cast<double>(run->first()), excess, window);
     }
-    constexpr double kNearEnough = 1.002;
-    if (!(most > kNearEnough) || tries == problem.most_tries) {
+    constexpr double kNearEnough = 1.002, kJerkNearEnough = 1.05;
+    if ((most <= kNearEnough && most_jerk <= kJerkNearEnough) || tries == problem.most_tries) {
       // Speeds go with the rate, accelerations with its square.
       move.law.step_s = rounded_up(move.law.step_s * (most > 1 ? most : std::sqrt(most)));
       return move;

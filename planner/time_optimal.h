@@ -3,14 +3,14 @@
 //
 // By the arc length l, with x = l̇² and u = l̈, every limit is a set of rows a u + b x <= c, c >= 0: speeds and
 // accelerations are linear in (u, x), and so is the inertia of the load, hence every tension; norms become polygons. As
-// x' = 2 u, the fastest law is found by reachability (TOPP-RA, H. Pham and Q.-C. Pham, IEEE T-RO 2018): backwards over a
-// grid of l, the largest x from which the next one's is reached; then forwards, always as fast as that allows. Standing
-// still obeys all rows, since the path is feasible: neither pass fails. A winch's power is not linear; tension at rest
-// bounds the speed by it, and what inertia adds is left to tightening. That law's acceleration jumps. Its mean over a
-// moving window of time is smooth, and s of that mean becomes the control values of a TimeLaw. The window is as long as
-// the jerk asks for. By l and not by s, since a spline whose control points are tripled rests there by itself: the
-// motion's jerk is bounded where s has none. Where samples of the law break a limit, the rows are tightened there, and
-// all is done again; in the end the whole is slowed down as far as samples need it.
+// x' = 2 u, the fastest law is found by reachability (TOPP-RA, H. Pham and Q.-C. Pham, IEEE T-RO 2018): backwards over
+// a grid of l, the largest x from which the next one's is reached; then forwards, always as fast as that allows.
+// Standing still obeys all rows, since the path is feasible: neither pass fails. A winch's power is not linear; tension
+// at rest bounds the speed by it, and what inertia adds is left to tightening. That law's acceleration jumps. Its mean
+// over a moving window of time is smooth, and s of that mean becomes the control values of a TimeLaw. The window is as
+// long as the jerk asks for. By l and not by s, since a spline whose control points are tripled rests there by itself:
+// the motion's jerk is bounded where s has none. Where samples of the law break a limit, the rows are tightened there,
+// and all is done again; in the end the whole is slowed down as far as samples need it.
 //
 // Floating point: a law is proposed here, and proves nothing.
 #pragma once
@@ -62,8 +62,8 @@ struct TimedMove {
 [[nodiscard]] double usage(const TimedPathProblem& problem, const PoseSampler& sampler, const PathRates<double>& path,
                            double rate, double acceleration, double s = 0);
 
-/// A spline rests where three control points are equal, a path of straight segments at each waypoint. Nothing where the path is not
-/// feasible at rest, as far as samples tell, where its motion is only implied, or no limit bounds the speed.
+/// A spline rests where three control points are equal, a path of straight segments at each waypoint. Nothing where the
+/// path is not feasible at rest, as far as samples tell, its motion is only implied, or no limit bounds the speed.
 [[nodiscard]] std::optional<TimedMove> time_optimal(const Path& path, const TimedPathProblem& problem);
 
 }  // namespace taut
