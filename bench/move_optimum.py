@@ -345,7 +345,8 @@ class Loads:
                     for k in range(3):
                         step = np.zeros((self.motion.places, 3))
                         step[:, k] = off
-                        slope[:, k] = np.sum((self.of_weight(weight, y, step) - self.of_weight(weight, y, -step)) * now, 0)
+                        change = self.of_weight(weight, y, step) - self.of_weight(weight, y, -step)
+                        slope[:, k] = np.sum(change * now, 0)
                     size = np.linalg.norm(slope, axis=1)[:, None]
                     shift = off * slope / np.where(size > 0, size, 1)
                 row = mass * self.of_weight(weight, y, shift)
@@ -452,7 +453,8 @@ class Program:
                 direction = by_a * a_now[:, None] + by_b * b_now[:, None]
                 size = np.linalg.norm(direction, axis=1)[:, None]
                 direction = direction / np.where(size > 0, size, 1)
-                check(np.sum(direction * by_a, 1), np.sum(direction * by_b, 1), 0.0, np.full(self.points, limit), corner)
+                of_a, of_b = np.sum(direction * by_a, 1), np.sum(direction * by_b, 1)
+                check(of_a, of_b, 0.0, np.full(self.points, limit), corner)
             for i, sign in itertools.product(range(6), (-1, 1)):
                 of_1, of_a, of_b = self.loads.worst(i, sign, a_now, b_now)
                 low, high = self.tensions[i]
@@ -507,7 +509,8 @@ class Program:
         for rounds in range(ROUNDS):
             matrix = csr_matrix((np.array(self.values) * scale, (self.rows, self.columns)),
                                 shape=(len(self.limits), self.points + 1))
-            bounds = np.stack([np.zeros(self.points + 1), np.where(np.isfinite(self.upper), self.upper / scale, 1e6)], 1)
+            upper = np.where(np.isfinite(self.upper), self.upper / scale, 1e6)
+            bounds = np.stack([np.zeros(self.points + 1), upper], 1)
             result = linprog(-np.ones(self.points + 1), A_ub=matrix, b_ub=self.limits, bounds=bounds, method="highs")
             if result.x is None:
                 raise SystemExit(f"move_optimum.py: {result.message}")
