@@ -75,8 +75,8 @@ def processor():
 
 
 def laws(folder):
-    yield ("| case | optimum, s | law, s | **law / optimum** | the same, without a limit of jerk "
-           "| largest jerk / limit | laws tried | whole plan, s |")
+    yield ("| case | optimum, s | law, s | **law / optimum** | without limit of jerk "
+           "| jerk / limit | laws tried | whole plan, s |")
     yield "|---|---|---|---|---|---|---|---|"
     for name in CASES:
         out = os.path.join(folder, name)
