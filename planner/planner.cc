@@ -492,7 +492,11 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
       prover_, result.path, [&](const Segment& segment) { return edges.find(segment); }, stop, aim);
   statistics.prove_seconds += seconds_since(start);
   if (result.proof.verdict != Verdict::kProved) return false;
-  if (case_.planner.smoothing == Smoothing::kSpline) round_corners(found->stops, stop, result);
+  // A move's law rests at stops by itself: where there is nothing but stops, no corner is left to be rounded.
+  const bool has_corners = found->stops.size() < result.path.waypoints.size();
+  if (case_.planner.smoothing == Smoothing::kSpline && (has_corners || !case_.problem.time)) {
+    round_corners(found->stops, stop, result);
+  }
   return true;
 }
 

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How fast a path can be run: a time law near the fastest one, within limits of winches, load and tensions.
 //
-// By the place s, with x = ṡ² and u = s̈, every limit is a set of rows a u + b x <= c, c >= 0: speeds and accelerations
-// are linear in (u, x), and so is the inertia of the load, hence every tension; norms become polygons. As x' = 2 u, the
-// fastest law is found by reachability (TOPP-RA, H. Pham and Q.-C. Pham, IEEE T-RO 2018): backwards over a grid of s,
-// the largest x from which the next one's is reached; then forwards, always as fast as that allows. Standing still
-// obeys all rows, since the path is feasible: neither pass fails. A winch's power is not linear; tension at rest bounds
-// the speed by it, and what inertia adds is left to tightening. That law's acceleration jumps. Its mean over a moving
-// window of time is smooth, and becomes the control values of a TimeLaw. Where samples of that break a limit, the rows
-// are tightened there, and all is done again; in the end the whole is slowed down as far as samples need it.
+// By the arc length l, with x = l̇² and u = l̈, every limit is a set of rows a u + b x <= c, c >= 0: speeds and
+// accelerations are linear in (u, x), and so is the inertia of the load, hence every tension; norms become polygons. As
+// x' = 2 u, the fastest law is found by reachability (TOPP-RA, H. Pham and Q.-C. Pham, IEEE T-RO 2018): backwards over
+// a grid of l, the largest x from which the next one's is reached; then forwards, always as fast as that allows.
+// Standing still obeys all rows, since the path is feasible: neither pass fails. A winch's power is not linear; tension
+// at rest bounds the speed by it, and what inertia adds is left to tightening. That law's acceleration jumps. Its mean
+// over a moving window of time is smooth, and s of that mean becomes the control values of a TimeLaw. The window is as
+// long as the jerk asks for. By l and not by s, since a spline whose control points are tripled rests there by itself:
+// the motion's jerk is bounded where s has none. Where samples of the law break a limit, the rows are tightened there,
+// and all is done again; in the end the whole is slowed down as far as samples need it.
 //
 // Floating point: a law is proposed here, and proves nothing.
 #pragma once
@@ -37,9 +39,9 @@ struct TimedPathProblem {
   TimeLimits limits;
   double slowing = 0;          ///< one over the time in which the move may be slowed down to rest [1/s]; 0: it may not
   double slack = 0.01;         ///< the share of each limit that is left alone
-  std::size_t grid = 64;       ///< places a segment
+  std::size_t grid = 64;       ///< places a segment, and 1024 of the path at least
   std::size_t most_tries = 8;  ///< of tightening
-  /// At all places of the grid, from s = 0 to the end; empty: nothing is lost.
+  /// At `grid` places of each segment, from s = 0 to the end; empty: nothing is lost.
   std::vector<TensionLoss> tension_loss = {};
   /// Where limits are to be used less than rows say, by a factor above 1: from and to are places of the path.
   struct Tightened {
@@ -60,8 +62,8 @@ struct TimedMove {
 [[nodiscard]] double usage(const TimedPathProblem& problem, const PoseSampler& sampler, const PathRates<double>& path,
                            double rate, double acceleration, double s = 0);
 
-/// A spline runs from end to end; a path of straight segments rests at each waypoint. Nothing where the path is not
-/// feasible at rest, as far as samples tell, where its motion is only implied, or no limit bounds the speed.
+/// A spline rests where three control points are equal, a path of straight segments at each waypoint. Nothing where the
+/// path is not feasible at rest, as far as samples tell, its motion is only implied, or no limit bounds the speed.
 [[nodiscard]] std::optional<TimedMove> time_optimal(const Path& path, const TimedPathProblem& problem);
 
 }  // namespace taut

@@ -39,6 +39,25 @@ double greatest_usage(const Path& path, const TimedPathProblem& problem, const T
   return most;
 }
 
+/// The largest jerk of the load point, from differences of its acceleration between close times [m/s³].
+double greatest_jerk(const Path& path, const TimedPathProblem& problem, const TimeLaw& law) {
+  const PoseSampler sampler(problem.problem);
+  const PathRatesModel<double> rates(problem.problem);
+  const double h = law.step_s / 8;
+  Vector3<double> before = Vector3<double>::Zero();
+  double most = 0;
+  for (int k = 0; k * h <= law.duration_s(); ++k) {
+    const LawPoint now = at_time(law, k * h);
+    const std::size_t segment = std::min(static_cast<std::size_t>(std::max(now.s, 0.0)), path.segments() - 1);
+    const PathRates<double> by_s = rates.at(path.segment(segment), now.s - static_cast<double>(segment));
+    const Vector3<double> acceleration =
+        acceleration_at(by_time(by_s, now.rate, now.acceleration), Vector3<double>(by_s.r_WP * sampler.model().p_PM));
+    if (k > 0) most = std::max(most, (acceleration - before).norm() / h);
+    before = acceleration;
+  }
+  return most;
+}
+
 TEST(TimeOptimal, ALineTakesAsLongAsItsTrapezoid) {
   const Problem problem = testing::free_flying(testing::robot2_sphere());
   const Path path{{at(-0.03, 0, 0.3), at(0.03, 0, 0.3)}};
@@ -49,11 +68,11 @@ TEST(TimeOptimal, ALineTakesAsLongAsItsTrapezoid) {
   const auto move = time_optimal(path, timed);
   ASSERT_TRUE(move);
   const double expected = 0.06 / 0.02 + 0.02 / 0.05;
-  EXPECT_NEAR(move->fastest_s, expected, 0.01 * expected);
+  EXPECT_NEAR(move->fastest_s, expected, 0.001 * expected);
   Path timed_path = path;
   timed_path.timing = move->law;
   EXPECT_EQ(complaint(timed_path), "");
-  EXPECT_LT(move->law.duration_s(), 1.1 * expected);
+  EXPECT_LT(move->law.duration_s(), 1.02 * expected);
   EXPECT_LE(greatest_usage(path, timed, move->law), 1.005);
   EXPECT_EQ(at_time(move->law, 0).rate, 0);
   EXPECT_EQ(at_time(move->law, move->law.duration_s()).rate, 0);
@@ -82,7 +101,8 @@ TEST(TimeOptimal, ASplineKeepsAllLimitsBetweenSamples) {
     EXPECT_GT(greatest_usage(path, timed, move->law), 0.9) << jerk;
     if (without == 0) without = move->fastest_s;
     EXPECT_EQ(move->fastest_s, without);
-    EXPECT_LT(move->law.duration_s(), (jerk < 5 ? 1.2 : 1.06) * without) << jerk;
+    EXPECT_LT(move->law.duration_s(), (jerk < 5 ? 1.25 : jerk < 21 ? 1.05 : 1.02) * without) << jerk;
+    EXPECT_LT(greatest_jerk(path, timed, move->law), 1.05 * jerk) << jerk;
   }
 }
 
@@ -144,8 +164,33 @@ TEST(TimeOptimal, PassesThroughAStopWithinASpline) {
   timed_path.timing = move->law;
   EXPECT_EQ(complaint(timed_path), "");
   EXPECT_LE(greatest_usage(path, timed, move->law), 1);
-  const double length = std::hypot(0.03, 0.03, 0.02) + std::hypot(0.03, 0.02, 0.04);
-  EXPECT_LT(move->law.duration_s(), 1.5 * (length / 0.2 + 2 * 0.2 / 0.4));
+  // Legs are straight, and too short for the greatest speed: half of each speeds up, half slows down.
+  double expected = 0;
+  for (const double length : {std::hypot(0.03, 0.03, 0.02), std::hypot(0.03, 0.02, 0.04)}) {
+    expected += 2 * std::sqrt(length / 0.4);
+  }
+  EXPECT_LT(move->law.duration_s(), 1.05 * expected);
+  EXPECT_GT(move->law.duration_s(), expected);
+}
+
+TEST(TimeOptimal, ALineIsAsFastInAllDirections) {
+  const Problem problem = testing::free_flying(testing::robot2_sphere());
+  // By its parameter the curve speeds up along itself, so that the two parts of the acceleration are parallel.
+  for (const Waypoint& b : {at(0.06, 0, 0.3), at(0.03, 0.04, 0.33), at(0.031, 0.017, 0.293)}) {
+    const Waypoint a = at(0, 0, 0.3);
+    const Path path{{a, a, a, b, b, b}, Interpolation::kCubicBSpline};
+    TimedPathProblem timed{problem, {}, {}};
+    timed.limits.acceleration = 0.4;
+    const double length = std::hypot(b.x[0], b.x[1], b.x[2] - 0.3), expected = 2 * std::sqrt(length / 0.4);
+    const auto move = time_optimal(path, timed);
+    ASSERT_TRUE(move);
+    EXPECT_NEAR(move->fastest_s, expected / std::sqrt(0.99), 0.005 * expected);
+    EXPECT_LT(move->law.duration_s(), 1.03 * expected);
+    Path timed_path = path;
+    timed_path.timing = move->law;
+    EXPECT_EQ(complaint(timed_path), "");
+    EXPECT_LE(greatest_usage(path, timed, move->law), 1);
+  }
 }
 
 TEST(TimeOptimal, LeavesAloneWhatItIsTold) {
