@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "certify/motion/moving.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "base/input_error.h"
-#include "certify/motion/law_range.h"
 
 namespace taut {
 
@@ -28,6 +28,10 @@ MovingModel<I>::MovingModel(const Problem& problem) : rates_(problem), bodies_(m
   add({RateKind::kLoadAcceleration}, text.load_acceleration_m_s2);
   add({RateKind::kLoadAngularSpeed}, text.load_angular_speed_rad_s);
   add({RateKind::kLoadAngularAcceleration}, text.load_angular_acceleration_rad_s2);
+  has_speeds_ = !powers_.empty() || std::ranges::any_of(limits_, [](const Limit& limit) {
+    return limit.id.kind == RateKind::kWinchSpeed || limit.id.kind == RateKind::kLoadSpeed ||
+           limit.id.kind == RateKind::kLoadAngularSpeed;
+  });
 }
 
 namespace {
@@ -52,7 +56,54 @@ std::vector<LawRange<I>> corners_of(const LawRange<I>& law) {
   return corners;
 }
 
+/// ± x.
+template <class I>
+I plus_minus(const I& x) {
+  return hull(-x, x);
+}
+
+template <class I>
+I dot(const Vector3<I>& a, const Vector3<I>& b) {
+  return a(0) * b(0) + a(1) * b(1) + a(2) * b(2);
+}
+
+template <class I>
+I norm(const Vector3<I>& v) {
+  return euclidean_norm(v(0), v(1), v(2));
+}
+
+/// The magnitude of a velocity that is v0 at a time, v in between, and changes at the rate a, for `reach` at most: its
+/// square changes at the rate 2 v·a.
+template <class I>
+I magnitude_within(const Vector3<I>& v0, const Vector3<I>& v, const Vector3<I>& a, const I& reach) {
+  const I square = dot(v0, v0) + plus_minus(reach) * (I(2.0) * dot(v, a));
+  if (!(square.upper() >= 0)) return square;  // no number, and no bound
+  return sqrt(hull(I(0.0), I(square.upper())));
+}
+
 }  // namespace
+
+template <class I>
+std::optional<typename MovingModel<I>::Fastest> MovingModel<I>::fastest(const Model<I>& model, const Segment& segment,
+                                                                        const I& range, const PathRates<I>& path,
+                                                                        const LawRange<I>& law) const {
+  const I first(static_cast<double>(segment.index));
+  const std::optional<LawInstant<I>> middle = law_instant(*segment.timing, I(first + range));
+  if (!middle) return std::nullopt;
+  const PathRates<I> at = rates_.at(segment, I(middle->place - first));
+  const Rates<I> all = by_time(path, law.rate, law.acceleration), here = by_time(at, middle->rate, I(0.0));
+  const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, all),
+                      winches_here = winch_rates(model, at.p, at.r_WP, here);
+  const Vector3<I> arm = turned(path.r_WP, model.p_PM), arm_here = turned(at.r_WP, model.p_PM);
+  Fastest result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    result.winch[i] = absolute(winches_here.speed[i] + plus_minus(middle->reach) * winches.acceleration[i]);
+  }
+  result.load =
+      magnitude_within(velocity_at(here, arm_here), velocity_at(all, arm), acceleration_at(all, arm), middle->reach);
+  result.spin = magnitude_within(here.angular_velocity, all.angular_velocity, all.angular_acceleration, middle->reach);
+  return result;
+}
 
 template <class I>
 Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range, Speeds speeds) const {
@@ -61,6 +112,7 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
   }
   const PathRates<I> path = rates_.at(segment, range);
   LawRange<I> law = law_range(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
+  const std::optional<Fastest> fastest = has_speeds_ ? this->fastest(model, segment, range, path, law) : std::nullopt;
   std::vector<LawRange<I>> corners = {law};
   if (speeds == Speeds::kAny && slowing_) {
     law = slowed(law, *slowing_);
@@ -77,7 +129,6 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
   }
 
   const Vector3<I> arm = turned(path.r_WP, model.p_PM);
-  const auto norm = [](const Vector3<I>& v) { return euclidean_norm(v(0), v(1), v(2)); };
   const auto rate_of = [&](const RateId& id, const Rates<I>& rates, const WinchRates<I>& winches) -> I {
     const auto i = static_cast<std::size_t>(id.cable);
     switch (id.kind) {
@@ -94,7 +145,8 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
   for (const LawRange<I>& corner : corners) {
     const Rates<I> rates = by_time(path, corner.rate, corner.acceleration);
     const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, rates);
-    result.winch_speed = winches.speed;  // in the end that of the fastest
+    for (std::size_t i = 0; i < kCables; ++i)
+      result.winch_speed[i] = absolute(winches.speed[i]);  // at last the fastest
     for (std::size_t n = 0; n < limits_.size(); ++n) {
       const I size = rate_of(limits_[n].id, rates, winches);
       const I value = limits_[n].most - size;
@@ -106,6 +158,21 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
       }
     }
   }
+  if (!fastest) return result;
+  const auto cut = [](I& size, const I& most) {
+    if (most.upper() < size.upper()) size = hull(I(size.lower()), I(most.upper()));
+  };
+  for (std::size_t i = 0; i < kCables; ++i) cut(result.winch_speed[i], fastest->winch[i]);
+  for (RateMargin<I>& margin : result.margins) {
+    switch (margin.id.kind) {
+      case RateKind::kWinchSpeed: cut(margin.size, fastest->winch[static_cast<std::size_t>(margin.id.cable)]); break;
+      case RateKind::kLoadSpeed: cut(margin.size, fastest->load); break;
+      case RateKind::kLoadAngularSpeed: cut(margin.size, fastest->spin); break;
+      default: continue;
+    }
+    const auto limit = std::ranges::find(limits_, margin.id, &Limit::id);
+    margin.value = limit->most - margin.size;
+  }
   return result;
 }
 
@@ -114,7 +181,7 @@ void MovingModel<I>::add_powers(const Moving<I>& moving, const std::array<I, kCa
                                 std::vector<RateMargin<I>>& margins) const {
   for (const Limit& limit : powers_) {
     const auto i = static_cast<std::size_t>(limit.id.cable);
-    const I size = absolute(moving.winch_speed[i]) * absolute(tension[i]);
+    const I size = moving.winch_speed[i] * absolute(tension[i]);
     margins.push_back({limit.id, size, limit.most - size});
   }
 }

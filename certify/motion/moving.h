@@ -3,8 +3,9 @@
 //
 // Over the part `range` of a segment, and over all times at which a move is there: enclosures of ṡ = σ' and s̈ = σ''
 // (law_range.h), with them of the platform's velocities and accelerations, and with these of w_in and of all rates
-// (kinematics/moving_load.h). Nothing here is a centred form: as boxes shrink, the enclosures do, in proportion.
-// Where a move may be slowed down, ṡ is any share of σ', and s̈ what that leaves of σ'' and a change of the share.
+// (kinematics/moving_load.h). As boxes shrink, these enclosures do, in proportion. Speeds are bounded once more, from
+// one time in the middle and the accelerations around it: a product such as that of ṡ and dL/ds can't see that one of
+// them falls where the other rises, and a move at the limit of a speed would take boxes without number. Where a move may be slowed down, ṡ is any share of σ', and s̈ what that leaves of σ'' and a change of the share.
 // docs/theory.md, "Moves in time".
 #pragma once
 
@@ -15,6 +16,7 @@
 
 #include "certify/arithmetic/interval.h"
 #include "certify/arithmetic/mp_interval.h"
+#include "certify/motion/law_range.h"
 #include "kinematics/moving_load.h"
 #include "kinematics/path_rates.h"
 #include "kinematics/time_limits.h"
@@ -47,7 +49,7 @@ struct Moving {
   InertiaByLaw<I> by_law;  ///< the same; only where the move may be slowed down
   /// Where the speed is any, all above the least value holds at the corners of (s̈, ṡ), which no other exceeds.
   std::vector<RateMargin<I>> margins;  ///< of all limits that the problem states, but for those of power
-  std::array<I, kCables> winch_speed;  ///< L̇ when the move is fastest [m/s]
+  std::array<I, kCables> winch_speed;  ///< |L̇| when the move is fastest [m/s]
   Matrix3<I> r_WP;
   Rates<I> rates;
 };
@@ -78,9 +80,18 @@ class MovingModel {
     RateId id;
     I most;
   };
+  /// No magnitude of a speed is above these while the law is run at its full speed, or slower.
+  struct Fastest {
+    std::array<I, kCables> winch;
+    I load, spin;
+  };
+  [[nodiscard]] std::optional<Fastest> fastest(const Model<I>& model, const Segment& segment, const I& range,
+                                               const PathRates<I>& path, const LawRange<I>& law) const;
+
   PathRatesModel<I> rates_;
   std::vector<MovingBody<I>> bodies_;
   std::vector<Limit> limits_, powers_;
+  bool has_speeds_ = false;   ///< whether a speed is limited, or a power
   std::optional<I> slowing_;  ///< by which share of its speed a move may be slowed down, at most [1/s]
 };
 

@@ -2,6 +2,7 @@
 #include "checker/kernel/moving.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "checker/kernel/curve.h"
@@ -44,32 +45,42 @@ std::size_t last_before(std::size_t n, const Predicate& is_before) {
   return from;
 }
 
+/// From u1 on piece `first` to u2 on piece `last`: all times at which σ is in [a, b] are among these.
+struct Times {
+  std::size_t first = 0, last = 0;
+  mpq_class u1 = 0, u2 = 1;
+
+  Times(const PiecewiseLaw& law, const mpq_class& a, const mpq_class& b) {
+    constexpr int kHalvings = 16;  // of a piece
+    const std::size_t n = law.pieces();
+    first = std::min(last_before(n, [&](std::size_t k) { return law.at_knot(k) < a; }), n - 1);
+    const std::size_t behind = n - last_before(n, [&](std::size_t k) { return law.at_knot(n - k) > b; });
+    last = std::max(first, behind == 0 ? 0 : behind - 1);
+    const Polynomial first_piece = law.piece(first), last_piece = law.piece(last);
+    mpq_class by(1, 2);
+    for (int k = 0; k < kHalvings; ++k, by /= 2) {
+      if (at(first_piece, u1 + by) < a) u1 += by;
+      if (at(last_piece, u2 - by) > b) u2 -= by;
+    }
+    if (first == last) u2 = std::max(u2, u1);
+  }
+
+  static mpq_class at(const Polynomial& p, const mpq_class& u) { return p[0] + u * (p[1] + u * (p[2] + u * p[3])); }
+};
+
 /// σ' and σ'' over all times at which σ is in [a, b].
 Speed law_range(const TimeLaw& text, const mpq_class& a, const mpq_class& b) {
-  constexpr int kHalvings = 16;  // of a piece
   const PiecewiseLaw law(text);
-  const std::size_t n = law.pieces();
-  const std::size_t first = std::min(last_before(n, [&](std::size_t k) { return law.at_knot(k) < a; }), n - 1);
-  const std::size_t behind = n - last_before(n, [&](std::size_t k) { return law.at_knot(n - k) > b; });
-  const std::size_t last = std::max(first, behind == 0 ? 0 : behind - 1);
-  const auto at = [](const Polynomial& p, const mpq_class& u) -> mpq_class {
-    return p[0] + u * (p[1] + u * (p[2] + u * p[3]));
-  };
-  const Polynomial first_piece = law.piece(first), last_piece = law.piece(last);
-  mpq_class u1 = 0, u2 = 1, by(1, 2);
-  for (int k = 0; k < kHalvings; ++k, by /= 2) {
-    if (at(first_piece, u1 + by) < a) u1 += by;
-    if (at(last_piece, u2 - by) > b) u2 -= by;
-  }
+  const Times times(law, a, b);
   Speed result;
-  for (std::size_t k = first; k <= last; ++k) {
+  for (std::size_t k = times.first; k <= times.last; ++k) {
     Box part;
-    part.begin = k == first ? u1 : mpq_class(0);
-    part.end = k == last ? std::max(u2, part.begin) : mpq_class(1);
+    part.begin = k == times.first ? times.u1 : mpq_class(0);
+    part.end = k == times.last ? times.u2 : mpq_class(1);
     const Polynomial p = law.piece(k);
     const Ball rate = form(over(derivative(p), part)).range();
     const Ball acceleration = form(over(derivative(derivative(p)), part)).range();
-    if (k == first) {
+    if (k == times.first) {
       result = {rate, acceleration, {}};
     } else {
       result = {hull(result.rate, rate), hull(result.acceleration, acceleration), {}};
@@ -78,6 +89,28 @@ Speed law_range(const TimeLaw& text, const mpq_class& a, const mpq_class& b) {
   const Ball step(text.step_s);
   const Ball rate = result.rate / step;
   return {rate, result.acceleration / sqr(step), rate};
+}
+
+/// A time at which σ is in [a, b]; no other one at which it is there is farther from it than `reach`.
+struct Instant {
+  mpq_class place;  ///< σ
+  Ball rate;        ///< σ' [1/s]
+  Ball reach;       ///< [s]
+};
+
+/// The middle of those times, unless σ is not in [a, b] then.
+std::optional<Instant> middle_instant(const TimeLaw& text, const mpq_class& a, const mpq_class& b) {
+  const PiecewiseLaw law(text);
+  const Times times(law, a, b);
+  const mpq_class from = times.u1 + times.first, to = times.u2 + times.last, middle = (from + to) / 2;
+  const mpz_class whole = middle.get_num() / middle.get_den();
+  const std::size_t k = std::min<std::size_t>(whole.get_ui(), law.pieces() - 1);
+  const Polynomial p = law.piece(k);
+  Box here;
+  here.begin = here.end = middle - k;
+  const mpq_class place = Times::at(p, here.begin), step(text.step_s), reach = (to - from) / 2 * step;
+  if (place < a || place > b) return std::nullopt;
+  return Instant{place, form(over(derivative(p), here)).range() / Ball(step), Ball(reach)};
 }
 
 // ---- The platform ---------------------------------------------------------------------------------------------------
@@ -223,6 +256,51 @@ void require_time_law(const Problem& problem, const Path& path) {
   }
 }
 
+namespace {
+
+/// No magnitude of a speed is above these while the move is run as its law says, or slower.
+struct Fastest {
+  std::array<Ball, kCables> winch;
+  Ball load, spin;
+};
+
+/// The length of cable i by s.
+SecondJet length(const Machine& machine, const Rates& rates, std::size_t i) {
+  Vector3<SecondJet> d = rates.point(machine.platform[i]);
+  for (std::size_t c = 0; c < 3; ++c) d[c] = d[c] - SecondJet(machine.base[i][c]);
+  return apply(Function::kSqrt, squared_norm(d));
+}
+
+/// The magnitude of a velocity that is v0 at one time, and in v with the rate a for `reach` about it: its square
+/// changes at the rate 2 v a.
+Ball magnitude_within(const Vector3<Ball>& v0, const Vector3<Ball>& v, const Vector3<Ball>& a, const Ball& reach) {
+  const Ball change = reach * Ball(2) * (v[0] * a[0] + v[1] * a[1] + v[2] * a[2]);
+  return highest(sqrt(highest(squared_norm(v0) + plus_minus(magnitude(change)))));
+}
+
+/// By the speeds in the middle of a box, and the accelerations of the law all over it.
+std::optional<Fastest> fastest(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
+                               const Box& box, const FrameJet& frame) {
+  const std::optional<Instant> middle = middle_instant(*path.timing, k + box.begin, k + box.end);
+  if (!middle) return std::nullopt;
+  Box at;
+  at.begin = at.end = middle->place - k;
+  const Rates here(frame_over(problem, path, k, at), {middle->rate, Ball(), middle->rate});
+  const Rates all(frame, speed_by_law(problem, path, k, box));
+  Fastest result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Ball change = middle->reach * all.acceleration(length(machine, all, i));
+    result.winch[i] = magnitude(here.speed(length(machine, here, i)) + plus_minus(magnitude(change)));
+  }
+  const Vector3<SecondJet> load = all.point(machine.load_point);
+  result.load = magnitude_within(here.velocity(here.point(machine.load_point)), all.velocity(load),
+                                 all.acceleration(load), middle->reach);
+  result.spin = magnitude_within(here.spin, all.spin, all.spin_change, middle->reach);
+  return result;
+}
+
+}  // namespace
+
 Ball rate_limit(const Problem& problem, RateKind kind, std::size_t cable) {
   return problem.time.value().of(kind, cable).value().evaluate<MeanValueForm>({}).range();
 }
@@ -250,32 +328,36 @@ std::vector<Speed> extreme_speeds(const Problem& problem, const Path& path, std:
 
 Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
               const Speed& speed) {
-  const Rates rates(frame_over(problem, path, k, box), speed);
+  const FrameJet frame = frame_over(problem, path, k, box);
+  const Rates rates(frame, speed);
   Moving result;
   for (const LoadItem& item : problem.items) {
     if (const auto* weight = std::get_if<Weight>(&item.set)) add_weight(*weight, item, machine, rates, result);
   }
 
+  const std::optional<Fastest> most = fastest(machine, problem, path, k, box, frame);
+  const auto size = [](const Ball& x) { return hull(least_magnitude(x), magnitude(x)); };
+  const auto no_more = [&](const Ball& x, const Ball& than) {
+    return certainly_positive(highest(x) - than) ? hull(lowest(x), than) : x;
+  };
   const auto add = [&](RateKind kind, std::size_t cable, const auto& magnitude_of_rate) {
     if (!problem.time->of(kind, cable)) return;
     const Ball rate = magnitude_of_rate();
     result.margins.push_back({kind, cable, rate, rate_limit(problem, kind, cable) - rate});
   };
   for (std::size_t i = 0; i < kCables; ++i) {
-    const auto length = [&] {
-      Vector3<SecondJet> d = rates.point(machine.platform[i]);
-      for (std::size_t c = 0; c < 3; ++c) d[c] = d[c] - SecondJet(machine.base[i][c]);
-      return apply(Function::kSqrt, squared_norm(d));
+    const auto fast = [&](const Ball& speed_of) {
+      return most ? no_more(size(speed_of), most->winch[i]) : size(speed_of);
     };
-    const auto size = [](const Ball& x) { return hull(least_magnitude(x), magnitude(x)); };
-    add(RateKind::kWinchSpeed, i, [&] { return size(rates.speed(length())); });
-    add(RateKind::kWinchAcceleration, i, [&] { return size(rates.acceleration(length())); });
-    if (problem.time->winch_power[i]) result.winch_speed[i] = size(rates.fastest(length()));
+    add(RateKind::kWinchSpeed, i, [&] { return fast(rates.speed(length(machine, rates, i))); });
+    add(RateKind::kWinchAcceleration, i, [&] { return size(rates.acceleration(length(machine, rates, i))); });
+    if (problem.time->winch_power[i]) result.winch_speed[i] = fast(rates.fastest(length(machine, rates, i)));
   }
+  const auto no_more_than = [&](const Ball& x, Ball Fastest::*than) { return most ? no_more(x, (*most).*than) : x; };
   const Vector3<SecondJet> load_point = rates.point(machine.load_point);
-  add(RateKind::kLoadSpeed, 0, [&] { return length_range(rates.velocity(load_point)); });
+  add(RateKind::kLoadSpeed, 0, [&] { return no_more_than(length_range(rates.velocity(load_point)), &Fastest::load); });
   add(RateKind::kLoadAcceleration, 0, [&] { return length_range(rates.acceleration(load_point)); });
-  add(RateKind::kLoadAngularSpeed, 0, [&] { return length_range(rates.spin); });
+  add(RateKind::kLoadAngularSpeed, 0, [&] { return no_more_than(length_range(rates.spin), &Fastest::spin); });
   add(RateKind::kLoadAngularAcceleration, 0, [&] { return length_range(rates.spin_change); });
   return result;
 }
