@@ -175,6 +175,10 @@ class TableReader {
     if (std::ranges::adjacent_find(times_s_, std::ranges::greater_equal()) != times_s_.end()) {
       fail("got times that are nearer to each other than binary64 can tell, expected a move in time");
     }
+    constexpr double kLeast_s = 1e-3, kMost_s = 1e7;
+    if (!(times_s_.back() >= kLeast_s && times_s_.back() <= kMost_s)) {
+      fail(fmt::format("got rows over {:.3g} s, expected a move of {} s to {} s", times_s_.back(), kLeast_s, kMost_s));
+    }
     const RowRounding rounding = {rounding_.position_m, rounding_.angle_rad};
     MoveFit fit = fit_move(problem_, rows, since_begin(rows_.back()), rounding);
     if (fit.worst.share <= 1) return fit;

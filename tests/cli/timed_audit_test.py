@@ -117,6 +117,12 @@ class TimedAudits(InFolder):
         # At rest the same poses are proved.
         self.assertEqual(self.audited(self.path("fast.csv"), "--headroom", "0")["verdict"], "proved")
 
+    def test_a_move_too_long_for_tables_is_audited_all_the_same(self):
+        said = self.audit(self.write("long.csv", quaternions(log(duration=6000.0))), *ROUNDING)
+        self.assertIn("PROVED", said)
+        self.assertIn("warning: no tables of the move are written", said)
+        self.assertFalse(os.path.exists(self.path("out", "winches.csv")))
+
     def test_other_forms_of_poses(self):
         rows = log()
         tum = self.write("log.tum", quaternions(rows, " ", ""))
@@ -200,6 +206,8 @@ class TimedAudits(InFolder):
         self.refused(good.replace("-4.0,", "nan,", 1), "wrong.csv:2: px: got 'nan'")
         self.refused(good.replace("-4.0,", "1e290,", 1), "wrong.csv:")
         self.refused(good[:-20], "wrong.csv:402")
+        for duration in (1e-200, 1e200):
+            self.refused(quaternions(log(duration=duration)), "expected a move of 0.001 s to")
         self.refused("".join(re.sub(r"^[^,]*,", "", line) for line in lines), "got no column t")
         self.refused("t[s],l1[m],l2[m],l3[m],l4[m],l5[m],l6[m]\n0,9,9,9,9,9,9\n", "got cable lengths, expected poses")
         self.refused("t[s],l1[m],l2[m],l3[m],l4[m],l5[m],l6[m],v1[m/s]\n0,9,9,9,9,9,9,0\n", "poses.csv beside it")
