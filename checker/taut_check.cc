@@ -23,7 +23,7 @@
 #include "base/input_error.h"
 #include "base/process.h"
 #include "base/sanitize.h"
-#include "case/case_file.h"
+#include "case/case_of_legs.h"
 #include "case/mesh_search.h"
 #include "checker/arguments.h"
 #include "checker/check.h"
@@ -145,6 +145,14 @@ std::vector<std::string> stated_lines(const std::string& bytes, const CheckResul
   return lines;
 }
 
+/// The case's problem, or the list of those of its legs.
+nlohmann::json problem_json(const CaseOfLegs& the_case) {
+  if (the_case.legs.empty()) return to_json(the_case.whole.problem);
+  nlohmann::json problems = nlohmann::json::array();
+  for (const CaseLeg& leg : the_case.legs) problems.push_back(to_json(leg.content.problem));
+  return problems;
+}
+
 CheckedFile check_file(const Arguments& arguments) {
   CheckResult malformed;
   try {
@@ -165,10 +173,10 @@ CheckedFile check_file(const Arguments& arguments) {
       if (checked.result.outcome == Outcome::kAccepted) checked.stated = stated_lines(bytes, checked.result);
       return checked;
     }
-    const Case the_case = load_case(arguments.case_path);
-    const taut::Problem& problem = the_case.problem;
-    options.meshes = meshes_of(arguments, &the_case);
-    const nlohmann::json of_case = to_json(problem);
+    const CaseOfLegs the_case = load_case_of_legs(arguments.case_path);
+    const taut::Problem& problem = the_case.whole.problem;
+    options.meshes = meshes_of(arguments, &the_case.whole);
+    const nlohmann::json of_case = problem_json(the_case);
     options.problem = &of_case;
     std::optional<ExpectedPath> path;
     if (!arguments.path_path.empty()) {
