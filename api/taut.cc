@@ -69,7 +69,7 @@ struct Theorem::Content {
 
 struct TheoremMaker {
   static Theorem make(const checker::Theorem& theorem) {
-    if (theorem.verdict() == checker::Theorem::Verdict::kNoPath) {
+    if (theorem.verdict() == checker::Theorem::Verdict::kNoPath || theorem.is_of_legs()) {
       return Theorem(std::make_shared<const Theorem::Content>(Theorem::Content{theorem, theorem.claim(), {}, {}, {}}));
     }
     const taut::Certificate certificate = read_certificate(theorem.certificate());

@@ -139,6 +139,10 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
   sha256_ = digest.hex();
   const bool has_space = certificate.contains("path") && certificate.contains("problem") &&
                          certificate["problem"].is_object() && certificate["problem"].contains("space");
+  if (certificate.contains("legs")) {
+    throw InputError(path_ + ": got a certificate of several legs, expected that of one: 1-NAME/certificate.json",
+                     {path_});
+  }
   if (!has_space) throw InputError(path_ + ": got no problem and no path, expected a certificate", {path_});
   certificate_ = with_error_code(ErrorCode::kPath, path_, [&] { return read_path(certificate["path"]); });
   if (keeps_time_ && !certificate_->timing) {

@@ -59,7 +59,8 @@ struct PlannedCaseOptions {
   HeadroomProgress headroom_progress = {};
   /// That proving that no path exists may take where the search found none; 0: it is not tried.
   double no_path_seconds = 0;
-  MoveRequest move = {};  ///< of a case with limits in time
+  MoveRequest move = {};   ///< of a case with limits in time
+  bool is_checked = true;  ///< off: `checked` is left as it is
 };
 
 /// Plans, proves and has the checker prove the certificate again. Asked to stop before it is done with planning, it

@@ -22,8 +22,10 @@
 #include "base/sanitize.h"
 #include "case/around_items.h"
 #include "case/bodies.h"
+#include "case/case_of_legs.h"
 #include "case/decoration_fields.h"
 #include "case/fields.h"
+#include "case/legs.h"
 #include "case/load.h"
 #include "case/table_rounding.h"
 #include "case/time.h"
@@ -530,12 +532,13 @@ AuditedPath read_audited_path(const Field& field, const Units& units, bool has_t
   return result;
 }
 
+constexpr std::size_t kMaxName = 200;  // bytes, of a case
+
 std::string read_name(const Field& field) {
-  constexpr std::size_t kMaxLength = 200;
-  const std::string expected = fmt::format("a name of 1 to {} characters on one line", kMaxLength);
+  const std::string expected = fmt::format("a name of 1 to {} characters on one line", kMaxName);
   const std::string name = field.text(expected);
   const bool is_line = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 127; });
-  if (!is_line || name.size() > kMaxLength) field.fail(expected);
+  if (!is_line || name.size() > kMaxName) field.fail(expected);
   return name;
 }
 
@@ -681,26 +684,75 @@ double arm_of(const RobotText& robot) {
   return sum > 0 ? sum / kCables : 1;
 }
 
-Case parse(const std::string& text, const std::string& name, const CaseCheck& check,
-           const std::function<void(const Space&)>& typed = {}) {
-  Places places(name);
-  if (text.size() > kMaxFileBytes) {
-    throw InputError(fmt::format("{}: got more than {} bytes, expected a case file", name, kMaxFileBytes), {name});
-  }
-  require_utf8(text, places);
+/// Reads the document of a case without legs, or of one leg.
+Case read_document(Places& places, const YAML::Node& document, const std::string& name, const CaseCheck& check,
+                   const std::function<void(const Space&)>& typed = {}) {
   try {
-    Case result =
-        read_case(Field(places, only_document(text, name), ""), std::filesystem::path(name).parent_path(), typed);
+    Case result = read_case(Field(places, document, ""), std::filesystem::path(name).parent_path(), typed);
     validate(result.problem);
     if (result.items_in_ellipsoid) {
       result.problem.load = ellipsoid_around_items(*result.items_in_ellipsoid, arm_of(result.problem.robot));
       validate(result.problem);
     }
     if (check) check(result);
-    result.description = leading_comment(text);
     return result;
   } catch (const FieldError& error) {
     places.fail(error);
+  }
+}
+
+CaseOfLegs read_legs_of(const Field& root, const std::string& text, const std::string& name, const CaseCheck& check) {
+  CaseOfLegs result;
+  for (const std::string& leg_name : read_legs(root)) {
+    Places places(name);
+    YAML::Node document = only_document(text, name);
+    keep_leg(document, leg_name, result.legs.size());
+    Case leg = read_document(places, document, name, check);
+    if (result.legs.empty()) result.whole = leg;
+    leg.problem.name = fmt::format("{}, leg {}", leg.problem.name, leg_name);
+    if (leg.problem.name.size() > kMaxName) {
+      root.open_map("a case").at("name").complain(
+          fmt::format("got a name too long for '{}', expected at most {} bytes "
+                      "of that",
+                      leg.problem.name, kMaxName));
+    }
+    leg.expect = Expectation::kNone;
+    leg.bounds.clear();
+    for (const std::string& warning : leg.warnings) {
+      std::vector<std::string>& all = result.whole.warnings;
+      if (std::ranges::find(all, warning) == all.end()) all.push_back(warning);
+    }
+    result.legs.push_back({leg_name, std::move(leg)});
+  }
+  require_joined(root, result.legs);
+  result.whole.problem.query.clear();
+  return result;
+}
+
+/// @param allows_legs  else a case that has them is refused
+CaseOfLegs parse(const std::string& text, const std::string& name, const CaseCheck& check, bool allows_legs,
+                 const std::function<void(const Space&)>& typed = {}) {
+  Places places(name);
+  if (text.size() > kMaxFileBytes) {
+    throw InputError(fmt::format("{}: got more than {} bytes, expected a case file", name, kMaxFileBytes), {name});
+  }
+  require_utf8(text, places);
+  try {
+    const YAML::Node document = only_document(text, name);
+    const bool is_of_legs = has_legs(document);
+    if (is_of_legs && !allows_legs) {
+      places.fail(document["query"]["legs"].Mark(), "query.legs",
+                  "got legs, expected 'waypoints': only taut plan, taut regress and taut-check take a case of legs");
+    }
+    CaseOfLegs result;
+    if (is_of_legs) {
+      result = read_legs_of(Field(places, document, ""), text, name, check);
+    } else {
+      result.whole = read_document(places, document, name, check, typed);
+    }
+    result.whole.description = leading_comment(text);
+    for (CaseLeg& leg : result.legs) leg.content.description = result.whole.description;
+    return result;
   } catch (const YAML::Exception& error) {
     refuse_tabs(text, places);
     places.fail(error.mark, "", fmt::format("got text that is not YAML ({}), expected a case file", error.msg));
@@ -722,7 +774,8 @@ std::vector<ExpressionText> read_typed_waypoint(const std::string& text, const s
   }
 }
 
-Case load(const std::string& path, const CaseCheck& check, const std::function<void(const Space&)>& typed = {}) {
+CaseOfLegs load(const std::string& path, const CaseCheck& check, bool allows_legs,
+                const std::function<void(const Space&)>& typed = {}) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::string text(kMaxFileBytes + 1, '\0');
@@ -731,17 +784,25 @@ Case load(const std::string& path, const CaseCheck& check, const std::function<v
     throw InputError(ErrorCode::kFile, fmt::format("{}: could not read: {}", path, reason), {path});
   }
   text.resize(static_cast<std::size_t>(file.gcount()));
-  return parse(text, path, check, typed);
+  return parse(text, path, check, allows_legs, typed);
 }
 
 }  // namespace
 
 Case parse_case(const std::string& text, const std::string& name, const CaseCheck& check) {
-  return with_error_code(ErrorCode::kCase, [&] { return parse(text, name, check); });
+  return with_error_code(ErrorCode::kCase, [&] { return parse(text, name, check, false).whole; });
 }
 
 Case load_case(const std::string& path, const CaseCheck& check) {
-  return with_error_code(ErrorCode::kCase, [&] { return load(path, check); });
+  return with_error_code(ErrorCode::kCase, [&] { return load(path, check, false).whole; });
+}
+
+CaseOfLegs parse_case_of_legs(const std::string& text, const std::string& name, const CaseCheck& check) {
+  return with_error_code(ErrorCode::kCase, [&] { return parse(text, name, check, true); });
+}
+
+CaseOfLegs load_case_of_legs(const std::string& path, const CaseCheck& check) {
+  return with_error_code(ErrorCode::kCase, [&] { return load(path, check, true); });
 }
 
 Case load_case_and_waypoint(const std::string& path, const std::string& text, const std::string& name,
@@ -758,7 +819,7 @@ Case load_case_and_waypoint(const std::string& path, const std::string& text, co
     }
     if (check) check(the_case);
   };
-  return with_error_code(ErrorCode::kCase, [&] { return load(path, check_both, read); });
+  return with_error_code(ErrorCode::kCase, [&] { return load(path, check_both, false, read).whole; });
 }
 
 }  // namespace taut

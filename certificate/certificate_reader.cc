@@ -17,6 +17,7 @@
 
 #include "base/input_error.h"
 #include "base/json_cursor.h"
+#include "checker/format/legs.h"
 #include "checker/format/strict_json.h"
 #include "checker/kernel/errors.h"
 #include "kinematics/time_law.h"
@@ -580,6 +581,12 @@ Certificate read_certificate(const json& certificate) {
   const auto member = [&](const char* key) -> JsonCursor { return {whole.at(key).value(), key}; };
   if (member("format").value() != "taut-certificate") member("format").fail("\"taut-certificate\"");
   const JsonCursor version = member("version");
+  if (version.value() == checker::kVersionOfLegs) {
+    version.fail(
+        fmt::format("{}, {} or {}, about one path: this is a certificate of several legs, each of which has "
+                    "one of its own beside it, in 1-NAME/certificate.json and so on",
+                    kCertificateVersion, kCertificateVersionWithBodies, kCertificateVersionInTime));
+  }
   if (version.value() != kCertificateVersion && version.value() != kCertificateVersionWithBodies &&
       version.value() != kCertificateVersionInTime) {
     version.fail(fmt::format("{}, {} or {}: only the taut that made it can make its report, or one of that time",

@@ -15,6 +15,7 @@
 #include "base/sha256.h"
 #include "checker/confirm.h"
 #include "checker/format/parts.h"
+#include "checker/legs.h"
 #include "checker/no_path.h"
 
 namespace taut::checker {
@@ -185,11 +186,24 @@ void require_trusted(const CheckOptions& options, CheckResult& result) {
   }
 }
 
+/// The problem is that of one of the case's legs.
+std::vector<std::string> require_leg(const nlohmann::json& problem, const nlohmann::json& of_case, bool is_no_path) {
+  for (const nlohmann::json& leg : of_case) {
+    if (problem["name"] != leg["name"]) continue;
+    std::vector<std::string> not_compared = require_problem(problem, leg, is_no_path);
+    not_compared.emplace_back("the case's other legs");
+    return not_compared;
+  }
+  throw Rejected("the certificate is about none of the case's legs");
+}
+
 void require_case(const nlohmann::json& problem, bool is_no_path, const CheckOptions& options, CheckResult& result) {
-  if (options.problem != nullptr) {
-    result.not_compared = require_problem(problem, *options.problem, is_no_path);
-  } else {
+  if (options.problem == nullptr) {
     result.not_compared.emplace_back("case");
+  } else if (options.problem->is_array()) {
+    result.not_compared = require_leg(problem, *options.problem, is_no_path);
+  } else {
+    result.not_compared = require_problem(problem, *options.problem, is_no_path);
   }
 }
 
@@ -297,6 +311,94 @@ Theorem::Verdict check_no_path(const std::string& bytes, Outline outline, const 
   return Theorem::Verdict::kNoPath;
 }
 
+/// The legs' problems are those of the case's legs, in their order.
+void require_case_of_legs(const LegsCertificate& certificate, const CheckOptions& options, CheckResult& result) {
+  if (options.path != nullptr) throw Rejected("it is about several legs: compare a path file with a leg's certificate");
+  if (options.problem == nullptr) {
+    result.not_compared.emplace_back("case");
+    return;
+  }
+  const nlohmann::json& of_case = *options.problem;
+  if (!of_case.is_array()) throw Rejected("the certificate is about legs, and the case has none");
+  if (of_case.size() != certificate.legs.size()) {
+    throw Rejected(
+        fmt::format("the certificate has {}, the case has {}", plural(certificate.legs.size(), "leg"), of_case.size()));
+  }
+  for (std::size_t k = 0; k < of_case.size(); ++k) {
+    if (certificate.legs[k].certificate.problem_json == of_case[k]) continue;
+    throw Rejected(fmt::format("leg {} is about another problem than the case's", k + 1));
+  }
+}
+
+/// How each leg is checked by itself, with what is left of the budget. The whole is what was asked for and signed.
+CheckOptions leg_options(const CheckOptions& options, TimePoint start) {
+  CheckOptions result = options;
+  result.problem = nullptr;
+  result.expect.reset();
+  result.trusted.clear();
+  if (options.max_seconds) {
+    const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
+    result.max_seconds = std::max(0.0, *options.max_seconds - used.count());
+  }
+  return result;
+}
+
+/// Checks the legs, one after the other, and adds their results up.
+/// @returns what is proved; nothing where the outcome is another than accepted
+std::optional<Theorem::Verdict> check_legs(const std::string& bytes, const Outline& outline,
+                                           const CheckOptions& options, TimePoint start, CheckResult& result) {
+  const LegsCertificate certificate = read_legs(outline);
+  keep(bytes, options, result);
+  result.signer = certificate.signer;
+  require_trusted(options, result);
+  require_case_of_legs(certificate, options, result);
+  if (certificate.verdict != Verdict::kUndecided) require_verdict(theorem_verdict(certificate.verdict), options);
+  require_one_machine(certificate);
+  if (certificate.verdict == Verdict::kProved) require_joined(certificate);
+  std::optional<std::size_t> unchecked, undecided;
+  for (const Leg& leg : certificate.legs) {
+    const std::size_t k = result.legs.size();
+    const CheckResult& checked = result.legs.emplace_back(check(std::string(leg.text), leg_options(options, start)));
+    result.counts.segments += checked.counts.segments;
+    result.counts.boxes += checked.counts.boxes;
+    result.counts.bits = std::max(result.counts.bits, checked.counts.bits);
+    switch (checked.outcome) {
+      case Outcome::kAccepted: break;
+      case Outcome::kUndecided:
+        if (!undecided) undecided = k;
+        break;
+      case Outcome::kUnchecked:
+        if (!unchecked) unchecked = k;
+        break;
+      case Outcome::kRejected:
+      case Outcome::kMalformed: throw Rejected(fmt::format("leg {}: {}", k + 1, checked.message));
+    }
+  }
+  if (unchecked) {
+    result.outcome = Outcome::kUnchecked;
+    result.message = fmt::format("leg {}: {}", *unchecked + 1, result.legs[*unchecked].message);
+    return std::nullopt;
+  }
+  if (certificate.verdict == Verdict::kUndecided) {
+    result.outcome = Outcome::kUndecided;
+    result.message = fmt::format("leg {}: {}", undecided.value() + 1, result.legs[*undecided].message);
+    return std::nullopt;
+  }
+  const std::string bits = fmt::format("{} bits", result.counts.bits);
+  if (certificate.verdict == Verdict::kRefuted) {
+    const std::size_t k = certificate.first_refuted;
+    if (result.legs.at(k).outcome != Outcome::kAccepted) throw Rejected(fmt::format("leg {}: not refuted", k + 1));
+    result.message = fmt::format("leg {} of {}: {}", k + 1, certificate.legs.size(), result.legs[k].message);
+    return Theorem::Verdict::kRefuted;
+  }
+  if (undecided) throw Rejected(fmt::format("leg {}: not proved", *undecided + 1));
+  result.message =
+      fmt::format("proved again: {}{}, each from the pose where the last one ends, {}, {}; {}",
+                  plural(certificate.legs.size(), "leg"), certificate.legs[0].certificate.path.timing ? ", moves" : "",
+                  plural(result.counts.segments, "segment"), plural(result.counts.boxes, "box"), bits);
+  return Theorem::Verdict::kProved;
+}
+
 }  // namespace
 
 const char* name(Theorem::Verdict verdict) {
@@ -323,8 +425,9 @@ CheckResult check(const std::string& bytes, const CheckOptions& options) {
     Outline outline = read_json(bytes);
     const bool is_no_path = outline.json.is_object() && outline.json.value("format", nlohmann::json()) == kNoPathFormat;
     const std::optional<Theorem::Verdict> verdict =
-        is_no_path ? check_no_path(bytes, std::move(outline), options, start, result)
-                   : check_path(bytes, std::move(outline), options, start, result);
+        is_no_path            ? check_no_path(bytes, std::move(outline), options, start, result)
+        : is_of_legs(outline) ? check_legs(bytes, outline, options, start, result)
+                              : check_path(bytes, std::move(outline), options, start, result);
     if (!verdict) return result;
     result.theorem = Theorem(*verdict, result.certificate, result.sha256, result.counts);
     result.outcome = Outcome::kAccepted;

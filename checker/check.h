@@ -6,8 +6,8 @@
 // errors.h, ball.h, mean_value_form.h, expression.h, linear.h, surface.h, statement.h, loads.h, bodies.h,
 // machine.h, zero.h, motion.h, moving.h, deviation.h, clearance.h, mesh_clearance.h, mesh_inside.h, box_proof.h,
 // deviant.h and their .cc; witness.h, near_waypoints.h and confirm.cc (what is proved of which poses); then format/
-// (that the numbers are those of the file); format/signature.h if it matters who wrote it. For "no path": cell_form.h,
-// outside.h and .cc in kernel/, then no_path.h and .cc.
+// (that the numbers are those of the file); format/signature.h if it matters who wrote it. For legs: legs.h and .cc.
+// For "no path": cell_form.h, outside.h and .cc in kernel/, then no_path.h and .cc.
 #pragma once
 
 #include <array>
@@ -69,7 +69,9 @@ struct SuppliedMesh {
 using MeshSupplier = std::function<SuppliedMesh(const std::string& file, const std::string& sha256)>;
 
 struct CheckOptions {
-  const nlohmann::json* problem = nullptr;   ///< where not null: what the certificate's `problem` must equal
+  /// Where not null: what the certificate's `problem` must equal; of a case of legs the array of their problems, which
+  /// those of a certificate of legs must equal in their order, and one of which that of another certificate must equal.
+  const nlohmann::json* problem = nullptr;
   const ExpectedPath* path = nullptr;        ///< where not null: what its `path` must equal
   std::optional<Theorem::Verdict> expect{};  ///< a claim of another verdict is rejected
   std::vector<std::string> trusted{};        ///< unless empty: public keys (signature.h), one of which must have signed
@@ -85,13 +87,15 @@ struct CheckResult {
   Outcome outcome = Outcome::kMalformed;
   std::string message = "nothing was checked";  ///< one line of printable ASCII, without the outcome itself
   std::optional<Theorem> theorem;               ///< present exactly where accepted
-  /// What was read, unless malformed. Where there is no theorem, nothing that it claims is known to be true.
+  /// What was read, unless malformed; of legs their whole. Where there is no theorem, nothing that it claims is known
+  /// to be true.
   std::shared_ptr<const nlohmann::json> certificate;
   std::string sha256;                     ///< of the bytes
   std::string signer;                     ///< public key whose signature was verified, or empty
   std::vector<SuppliedMesh> meshes;       ///< that were supplied, each once, if `certificate` is kept
   bool is_trusted = false;                ///< whether the signer is one of those asked for
   bool is_audit = false;                  ///< the path itself is what was asked about
+  std::vector<CheckResult> legs;          ///< of a certificate of legs: check() of the bytes of each, as far as it came
   Theorem::Counts counts;                 ///< as far as the check went
   std::vector<std::string> not_compared;  ///< "case", "path file", and what of these does not matter to it
 };

@@ -23,10 +23,11 @@
 #include "base/input_error.h"
 #include "base/process.h"
 #include "base/sanitize.h"
-#include "case/case_file.h"
+#include "case/case_of_legs.h"
 #include "case/mesh_search.h"
 #include "checker/arguments.h"
 #include "checker/check.h"
+#include "checker/format/legs.h"
 #include "checker/format/signature.h"
 #include "checker/kernel/errors.h"
 #include "checker/kernel/statement.h"
@@ -115,13 +116,42 @@ MeshSupplier meshes_of(const Arguments& arguments, const Case* the_case) {
   };
 }
 
-/// With the load, the limits in time and the bodies that an accepted certificate is about, where no case says what they
-/// have to be.
 struct CheckedFile {
   CheckResult result;
-  std::string load, time, bodies;
+  std::vector<std::string> stated;  ///< what an accepted certificate is about, where no case says what it has to be
   bool is_bad_input = false;  ///< of kMalformed: a file could not be read, or one that is not the certificate is wrong
 };
+
+/// The load, the limits in time and the bodies of a certificate, a line each; of legs, those of each.
+std::vector<std::string> stated_lines(const std::string& bytes, const CheckResult& result) {
+  std::vector<std::string> lines;
+  const auto add = [&](const std::string& leg, const std::string& line) {
+    if (!line.empty()) lines.push_back(leg + line);
+  };
+  if (result.legs.empty()) {
+    add("", stated_load(bytes));
+    add("", stated_time(bytes));
+    add("", stated_bodies(bytes));
+    return lines;
+  }
+  const Outline outline = read_json(bytes);
+  const std::vector<std::string_view> texts = leg_texts(outline);
+  add("", stated_time(std::string(texts.at(0))));
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    const std::string leg = fmt::format("leg {}: ", k + 1);
+    add(leg, stated_load(std::string(texts[k])));
+    add(leg, stated_bodies(std::string(texts[k])));
+  }
+  return lines;
+}
+
+/// The case's problem, or the list of those of its legs.
+nlohmann::json problem_json(const CaseOfLegs& the_case) {
+  if (the_case.legs.empty()) return to_json(the_case.whole.problem);
+  nlohmann::json problems = nlohmann::json::array();
+  for (const CaseLeg& leg : the_case.legs) problems.push_back(to_json(leg.content.problem));
+  return problems;
+}
 
 CheckedFile check_file(const Arguments& arguments) {
   CheckResult malformed;
@@ -139,18 +169,14 @@ CheckedFile check_file(const Arguments& arguments) {
     const std::string bytes = read_whole(arguments.certificate_path, kMaxFileSize);
     if (arguments.case_path.empty()) {
       options.meshes = meshes_of(arguments, nullptr);
-      CheckedFile checked{check(bytes, options), "", "", ""};
-      if (checked.result.outcome == Outcome::kAccepted) {
-        checked.load = stated_load(bytes);
-        checked.time = stated_time(bytes);
-        checked.bodies = stated_bodies(bytes);
-      }
+      CheckedFile checked{check(bytes, options), {}};
+      if (checked.result.outcome == Outcome::kAccepted) checked.stated = stated_lines(bytes, checked.result);
       return checked;
     }
-    const Case the_case = load_case(arguments.case_path);
-    const taut::Problem& problem = the_case.problem;
-    options.meshes = meshes_of(arguments, &the_case);
-    const nlohmann::json of_case = to_json(problem);
+    const CaseOfLegs the_case = load_case_of_legs(arguments.case_path);
+    const taut::Problem& problem = the_case.whole.problem;
+    options.meshes = meshes_of(arguments, &the_case.whole);
+    const nlohmann::json of_case = problem_json(the_case);
     options.problem = &of_case;
     std::optional<ExpectedPath> path;
     if (!arguments.path_path.empty()) {
@@ -158,13 +184,13 @@ CheckedFile check_file(const Arguments& arguments) {
                                 arguments.interpolation);
       options.path = &*path;
     }
-    return {check(bytes, options), "", "", ""};
+    return {check(bytes, options), {}};
   } catch (const Malformed& error) {
     malformed.message = error.what();
   } catch (const InputError& error) {
     malformed.message = error.what();
   }
-  return {malformed, "", "", "", true};  // check() itself says what is wrong with a certificate
+  return {malformed, {}, true};  // check() itself says what is wrong with a certificate
 }
 
 /// "; path file not compared; not compared: the case's query", or nothing.
@@ -187,19 +213,37 @@ std::string describe_signer(const CheckResult& result) {
   return "signed by key " + fingerprint(result.signer) + (result.is_trusted ? "; trusted" : "; not trusted by anyone");
 }
 
+/// Null unless it is known.
+nlohmann::json verdict_json(const CheckResult& result) {
+  if (result.theorem) return name(result.theorem->verdict());
+  return result.outcome == Outcome::kUndecided ? nlohmann::json("undecided") : nlohmann::json();
+}
+
 nlohmann::json to_json(const CheckResult& result, double seconds) {
   nlohmann::json signature;
   if (!result.signer.empty()) {
     signature = {{"key", fingerprint(result.signer)}, {"public_key", result.signer}, {"trusted", result.is_trusted}};
   }
-  nlohmann::json verdict;  // null unless it is known
-  if (result.theorem) verdict = name(result.theorem->verdict());
-  if (result.outcome == Outcome::kUndecided) verdict = "undecided";
-  return {{"command", "check"},           {"outcome", name(result.outcome)}, {"message", result.message},
-          {"verdict", verdict},           {"audit", result.is_audit},        {"segments", result.counts.segments},
-          {"boxes", result.counts.boxes}, {"bits", result.counts.bits},      {"not_compared", result.not_compared},
-          {"sha256", result.sha256},      {"signature", signature},          {"exit_code", exit_code(result.outcome)},
-          {"elapsed_seconds", seconds}};
+  nlohmann::json document = {{"command", "check"},
+                             {"outcome", name(result.outcome)},
+                             {"message", result.message},
+                             {"verdict", verdict_json(result)},
+                             {"audit", result.is_audit},
+                             {"segments", result.counts.segments},
+                             {"boxes", result.counts.boxes},
+                             {"bits", result.counts.bits},
+                             {"not_compared", result.not_compared},
+                             {"sha256", result.sha256},
+                             {"signature", signature},
+                             {"exit_code", exit_code(result.outcome)},
+                             {"elapsed_seconds", seconds}};
+  for (const CheckResult& leg : result.legs) {
+    document["legs"].push_back({{"outcome", name(leg.outcome)},
+                                {"verdict", verdict_json(leg)},
+                                {"message", leg.message},
+                                {"sha256", leg.sha256}});
+  }
+  return document;
 }
 
 void add_options(CLI::App& app, Arguments& arguments) {
@@ -262,9 +306,7 @@ int run(int argc, char** argv) {
   } else if (!arguments.quiet && !is_malformed) {
     std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result)
               << fmt::format("; {:.2f} s; ", seconds) << describe_signer(result) << std::endl;
-    if (!checked.load.empty()) std::cout << sanitize(checked.load) << std::endl;
-    if (!checked.time.empty()) std::cout << sanitize(checked.time) << std::endl;
-    if (!checked.bodies.empty()) std::cout << sanitize(checked.bodies) << std::endl;
+    for (const std::string& line : checked.stated) std::cout << sanitize(line) << std::endl;
   }
   if (!arguments.quiet && is_malformed)
     std::cerr << (checked.is_bad_input ? "bad input" : name(result.outcome)) << ": " << sanitize(result.message)

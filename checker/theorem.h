@@ -22,8 +22,8 @@ struct CheckResult;
 class Theorem {
  public:
   enum class Verdict {
-    kProved,   ///< the claim holds along the whole path
-    kRefuted,  ///< it does not: the witness violates a limit or is singular
+    kProved,   ///< the claim holds along the whole path; of legs, along each
+    kRefuted,  ///< it does not: the witness violates a limit or is singular; of legs, on one of them
     kNoPath,   ///< no motion leads from one waypoint of the query to the next; there are no path, margins or witness
   };
   struct Counts {
@@ -35,7 +35,13 @@ class Theorem {
   [[nodiscard]] Verdict verdict() const { return verdict_; }
   /// What was proved or refuted, in words; the checker has compared them with the words that the format prescribes.
   [[nodiscard]] const std::string& claim() const { return text("claim"); }
-  [[nodiscard]] const nlohmann::json& problem() const { return certificate()["problem"]; }
+  /// Whether it is about legs, each of which has a theorem of its own (CheckResult::legs): then there are no problem,
+  /// path, margins or witness of the whole.
+  [[nodiscard]] bool is_of_legs() const { return certificate().contains("legs"); }
+  [[nodiscard]] const nlohmann::json& problem() const {
+    if (is_of_legs()) throw std::logic_error("a theorem of legs, each of which has a problem");
+    return certificate()["problem"];
+  }
   [[nodiscard]] const nlohmann::json& path() const { return part("path"); }
   /// Proved lower bounds, decimals as the certificate writes them; an empty object unless proved.
   [[nodiscard]] const nlohmann::json& margins() const { return part("margins"); }
@@ -59,7 +65,7 @@ class Theorem {
 
   /// What only certificates of paths have.
   [[nodiscard]] const nlohmann::json& part(const char* key) const {
-    if (verdict_ == Verdict::kNoPath) throw std::logic_error("a theorem without a path");
+    if (verdict_ == Verdict::kNoPath || is_of_legs()) throw std::logic_error("a theorem without a path");
     return certificate()[key];
   }
   [[nodiscard]] const std::string& text(const char* key) const {

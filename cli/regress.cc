@@ -15,7 +15,7 @@
 #include "base/input_error.h"
 #include "base/json_cursor.h"
 #include "base/sanitize.h"
-#include "case/case_file.h"
+#include "case/case_of_legs.h"
 #include "cli/console.h"
 #include "cli/subprocess.h"
 #include "problem/scalar.h"
@@ -72,6 +72,7 @@ Measurement measurement(const json& summary) {
     take("cost", summary, "cost");
     take("charts", summary, "charts");
     take("duration", summary.value("move", json()), "duration_s");
+    take("duration", summary, "duration_s");  // of legs
   }
   return result;
 }
@@ -145,7 +146,7 @@ void run(const fs::path& file, const fs::path& out, const RegressOptions& option
          RegressedCase& result) {
   Case declared;
   try {
-    declared = load_case(file.string());
+    declared = load_case_of_legs(file.string()).whole;
     if (declared.expect == Expectation::kNone) {
       throw InputError(file.string() + ": got no 'expect', expected the verdict that the case should get");
     }

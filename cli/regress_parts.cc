@@ -10,7 +10,7 @@
 #include "base/input_error.h"
 #include "base/sanitize.h"
 #include "base/sha256.h"
-#include "case/case_file.h"
+#include "case/case_of_legs.h"
 #include "cli/parts_options.h"
 
 namespace taut {
@@ -33,7 +33,7 @@ std::string file_digest(const std::filesystem::path& file) {
 json case_digest(const std::string& name, const std::filesystem::path& file) {
   json digest = {sanitize(name), file_digest(file)};  // a name need not be text
   try {
-    const Case declared = load_case(file.string());
+    const Case declared = load_case_of_legs(file.string()).whole;
     if (declared.audit) digest.push_back(file_digest(file.parent_path() / declared.audit->file));
     if (declared.bodies) {
       for (const MeshOfBody& mesh : declared.bodies->meshes) digest.push_back(mesh.mesh->sha256);

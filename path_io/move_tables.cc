@@ -73,18 +73,68 @@ std::string between_rows(const Problem& problem, double rate_Hz) {
          "(tolerances.cable_length)\n# covers it.\n";
 }
 
-std::string head(const Problem& problem, const MoveRows& rows, double rate_Hz, std::string_view sha256,
-                 std::string_view what, std::string_view units, std::string_view more) {
+/// What a table's head says of it and of its move.
+struct Head {
+  std::string name;  ///< of the case
+  std::string legs;  ///< lines that say which there are
+  double rate_Hz = 0;
+  std::string_view sha256;  ///< of the certificate
+};
+
+std::string head_text(const Head& head, const MoveRows& rows, std::string_view what, std::string_view units,
+                      std::string_view more) {
   return fmt::format(
       "{}{}. Case: {}\n"
       "# Rows: {}, every {:.6g} s ({:.6g} Hz), the last one where the move ends, at {} s.\n"
+      "{}"
       "# Units: {}\n"
       "# What is proved is the move: the path by its law through the waypoints of path.csv, and the time law in the "
       "certificate.\n# These rows are on it but for rounding.\n"
       "{}"
       "# Certificate of the move: certificate.json, SHA-256 {}\n",
-      kMoveTableBegin, what, sanitize(problem.name), rows.poses.size(), 1 / rate_Hz, rate_Hz, rows.poses.back()[0],
-      units, more, sha256);
+      kMoveTableBegin, what, sanitize(head.name), rows.poses.size(), 1 / head.rate_Hz, head.rate_Hz,
+      rows.poses.back()[0], head.legs, units, more, head.sha256);
+}
+
+MoveTables tables_of(const Head& head, const Problem& problem, const MoveRows& rows) {
+  MoveTables tables;
+  tables.winches_csv =
+      head_text(head, rows, ", for its winches",
+                "lengths l are in metres, from anchor to anchor; v and a are their first two derivatives by time.",
+                between_rows(problem, head.rate_Hz)) +
+      fmt::format("{}\n", fmt::join(kWinchColumns, ","));
+  const std::string pose_head =
+      head_text(head, rows, ", as poses",
+                "metres and seconds; the quaternion (qx, qy, qz, qw) turns the platform's axes into the base's.", "");
+  tables.poses_csv = pose_head + fmt::format("{}\n", fmt::join(kPoseColumns, ","));
+  tables.poses_tum = pose_head + "# t px py pz qx qy qz qw\n";
+  for (const auto& row : rows.winches) {
+    fmt::format_to(std::back_inserter(tables.winches_csv), "{}\n", fmt::join(row, ","));
+  }
+  for (const auto& row : rows.poses) {
+    fmt::format_to(std::back_inserter(tables.poses_csv), "{}\n", fmt::join(row, ","));
+    fmt::format_to(std::back_inserter(tables.poses_tum), "{}\n", fmt::join(row, " "));
+  }
+  return tables;
+}
+
+/// Appends the rows of a leg that begins where the rows end.
+void append(MoveRows next, MoveRows& rows) {
+  const bool is_first = rows.poses.empty();
+  const double start = is_first ? 0 : rows.poses.back()[0];
+  double sign = 1;
+  if (!is_first) {  // q and -q are one orientation
+    double product = 0;
+    for (std::size_t k = 4; k < kPoseColumns.size(); ++k) product += rows.poses.back()[k] * next.poses.front()[k];
+    sign = product < 0 ? -1 : 1;
+  }
+  for (std::size_t n = is_first ? 0 : 1; n < next.poses.size(); ++n) {
+    next.winches[n][0] += start;
+    next.poses[n][0] += start;
+    for (std::size_t k = 4; k < kPoseColumns.size(); ++k) next.poses[n][k] *= sign;
+    rows.winches.push_back(next.winches[n]);
+    rows.poses.push_back(next.poses[n]);
+  }
 }
 
 }  // namespace
@@ -113,26 +163,23 @@ MoveRows move_rows(const Problem& problem, const Path& path, double rate_Hz) {
 }
 
 MoveTables move_tables(const Problem& problem, const Path& path, double rate_Hz, std::string_view certificate_sha256) {
-  const MoveRows rows = move_rows(problem, path, rate_Hz);
-  MoveTables tables;
-  tables.winches_csv =
-      head(problem, rows, rate_Hz, certificate_sha256, ", for its winches",
-           "lengths l are in metres, from anchor to anchor; v and a are their first two derivatives by time.",
-           between_rows(problem, rate_Hz)) +
-      fmt::format("{}\n", fmt::join(kWinchColumns, ","));
-  const std::string pose_head =
-      head(problem, rows, rate_Hz, certificate_sha256, ", as poses",
-           "metres and seconds; the quaternion (qx, qy, qz, qw) turns the platform's axes into the base's.", "");
-  tables.poses_csv = pose_head + fmt::format("{}\n", fmt::join(kPoseColumns, ","));
-  tables.poses_tum = pose_head + "# t px py pz qx qy qz qw\n";
-  for (const auto& row : rows.winches) {
-    fmt::format_to(std::back_inserter(tables.winches_csv), "{}\n", fmt::join(row, ","));
+  return tables_of({problem.name, "", rate_Hz, certificate_sha256}, problem, move_rows(problem, path, rate_Hz));
+}
+
+MoveTables move_tables(std::span<const MoveLeg> legs, const std::string& name, double rate_Hz,
+                       std::string_view certificate_sha256) {
+  MoveRows rows;
+  std::string text = fmt::format(
+      "# Legs: {}, each of which begins where the one before it ends, at rest, with a load "
+      "of its own. Times go on without\n# a pause: taking a load and putting it down is no "
+      "part of the move, and takes its time.\n",
+      legs.size());
+  for (const MoveLeg& leg : legs) {
+    const double start = rows.poses.empty() ? 0 : rows.poses.back()[0];
+    append(move_rows(leg.problem, leg.path, rate_Hz), rows);
+    text += fmt::format("# leg {}: from {} s to {} s\n", sanitize(leg.name), start, rows.poses.back()[0]);
   }
-  for (const auto& row : rows.poses) {
-    fmt::format_to(std::back_inserter(tables.poses_csv), "{}\n", fmt::join(row, ","));
-    fmt::format_to(std::back_inserter(tables.poses_tum), "{}\n", fmt::join(row, " "));
-  }
-  return tables;
+  return tables_of({name, text, rate_Hz, certificate_sha256}, legs.front().problem, rows);
 }
 
 }  // namespace taut

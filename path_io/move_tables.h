@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,20 @@ struct MoveTables {
 /// its SHA-256.
 /// @pre, @throws  as move_rows()
 [[nodiscard]] MoveTables move_tables(const Problem& problem, const Path& path, double rate_Hz,
+                                     std::string_view certificate_sha256);
+
+/// A proved move, one of several that follow one another.
+struct MoveLeg {
+  const Problem& problem;
+  const Path& path;
+  std::string name;
+};
+
+/// The tables of legs one after the other: times go on from leg to leg, without a pause, and the row where two legs
+/// meet stands once. Comments say between which times each leg is.
+/// @param name  of the case @param certificate_sha256  of the certificate of all legs
+/// @pre one leg or more, each with path.timing, and each begins where the one before it ends @throws as move_rows()
+[[nodiscard]] MoveTables move_tables(std::span<const MoveLeg> legs, const std::string& name, double rate_Hz,
                                      std::string_view certificate_sha256);
 
 }  // namespace taut

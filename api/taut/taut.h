@@ -239,8 +239,8 @@ class TAUT_EXPORT Theorem {
  public:
   [[nodiscard]] Verdict verdict() const;                 ///< kProved, kRefuted or kNoPath
   [[nodiscard]] const std::string& claim() const;        ///< in words
-  [[nodiscard]] std::optional<Margins> margins() const;  ///< only if proved
-  [[nodiscard]] std::optional<Witness> witness() const;  ///< only if refuted; the gravest that was found
+  [[nodiscard]] std::optional<Margins> margins() const;  ///< only if proved, of one path
+  [[nodiscard]] std::optional<Witness> witness() const;  ///< likewise if refuted; the gravest that was found
   /// SHA-256 of the text of the certificate that was proved, 64 lower-case hex digits.
   [[nodiscard]] const std::string& certificate_sha256() const;
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -167,6 +168,47 @@ inline constexpr const char* kNoPathClaim =
 
 inline constexpr const char* kUndecidedClaim =
     "Nothing is claimed. The path was neither proved nor refuted; this does not mean that it is unsafe.";
+
+/// Of a certificate of legs, after their number: legs_proved_claim().
+inline constexpr const char* kLegsProvedClaim =
+    " legs, which follow one another in the order of the certificate. What the certificate of each leg claims of its "
+    "path is proved, with the load and the bodies that the leg's own problem states; these may differ from leg to leg. "
+    "Robot, limits, tolerances, gravity, load point, space, cables' bodies and limits in time are the same in all "
+    "legs. The path of each leg but the first begins at the very pose at which the path of the one before it ends.";
+
+/// Follows it where the legs are moves.
+inline constexpr const char* kLegsOfMovesClause =
+    " The platform, as path and law command it, is at rest at the beginning and at the end of every leg.";
+
+/// Follows it where they are not.
+inline constexpr const char* kLegsOfPathsClause =
+    " The claim is about the poses of each leg, at which the platform is taken to be at rest.";
+
+/// Ends it.
+inline constexpr const char* kBetweenLegsClause =
+    " Between two legs the platform is to rest at that pose. Nothing is claimed of how a load or a body is taken or "
+    "put down there, of what the platform carries while that is done, or of how long it takes.";
+
+/// After the number of the leg, and that of all: legs_refuted_claim().
+inline constexpr const char* kLegsRefutedClaim =
+    " legs, counted from 1, is refuted: what its certificate claims is true. So it is not true that all legs can be "
+    "run, each with its load, as the certificate states them. Nothing is claimed of the others beside what their own "
+    "certificates claim.";
+
+inline constexpr const char* kLegsUndecidedClaim =
+    "Nothing is claimed of the legs together. Not all of them were proved, and none was refuted; this does not mean "
+    "that they are unsafe. What each leg's own certificate claims is that alone.";
+
+/// The whole text of a certificate of so many legs, all of which are proved.
+inline std::string legs_proved_claim(std::size_t count, bool are_moves) {
+  return "There are " + std::to_string(count) + kLegsProvedClaim +
+         (are_moves ? kLegsOfMovesClause : kLegsOfPathsClause) + kBetweenLegsClause;
+}
+
+/// Likewise of one of which leg `refuted` is the first that is refuted. @param refuted  from 1
+inline std::string legs_refuted_claim(std::size_t count, std::size_t refuted) {
+  return "Leg " + std::to_string(refuted) + " of " + std::to_string(count) + kLegsRefutedClaim;
+}
 
 /// What the text of a claim depends on, beside the verdict.
 struct ClaimSubject {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads a certificate and checks its form: docs/certificate-format.md, versions 4 to 6. Proves nothing about the
-// robot.
+// Reads a certificate of a path and checks its form: docs/certificate-format.md, versions 4 to 6. Proves nothing about
+// the robot.
 #pragma once
 
 #include <array>

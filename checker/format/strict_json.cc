@@ -142,7 +142,7 @@ class Handler final : public nlohmann::json_sax<Json> {
     const std::string& key = open_.back().key;
     const std::string_view value(begin_, static_cast<std::size_t>(reached_ - begin_));
     const bool is_timing = open_.size() == 2 && key == "timing" && !kept->is_array();
-    if (key == "segments" || key == "stretches" || (open_.size() == 2 && !is_timing)) {
+    if (key == "segments" || key == "stretches" || key == "legs" || (open_.size() == 2 && !is_timing)) {
       if (kept->is_array()) outline_.lists[key] = value;
     } else if (key != "path" && key != "generator" && key != "illustration") {
       *kept = Json::parse(value);

@@ -12,8 +12,9 @@ namespace taut::checker {
 
 /// A certificate whose long parts are not read yet. The digests are those of canonical JSON.
 struct Outline {
-  /// The whole, but for the lists whose length depends on the path (`segments`, `stretches`, and `waypoints`, `tubes`,
-  /// `pose_tubes`, `times` and `directions` of `path`) and for `generator` and `illustration`: these are left empty.
+  /// The whole, but for the lists whose length depends on the path (`segments`, `stretches`, `legs`, and `waypoints`,
+  /// `tubes`, `pose_tubes`, `times` and `directions` of `path`) and for `generator` and `illustration`: these are left
+  /// empty.
   nlohmann::json json;
   std::map<std::string, std::string_view, std::less<>> lists;  ///< their text, where they are lists, by their key
   std::string body_sha256;                                     ///< of all but `footer` and `signature`

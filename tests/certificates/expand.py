@@ -12,10 +12,10 @@ from fractions import Fraction
 
 import yaml
 
-from sealing import CLAIMS, box, hex64, seal, with_hints
+from sealing import CLAIMS, box, hex64, seal, seal_legs, with_hints
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-KEYS = {'name', 'why', 'base', 'edit', 'hints', 'text', 'seal', 'expect', 'message'}
+KEYS = {'name', 'why', 'base', 'legs', 'edit', 'hints', 'text', 'seal', 'expect', 'message'}
 OUTCOMES = ('accepted', 'rejected', 'malformed')
 
 
@@ -39,8 +39,8 @@ def read_cases():
                 raise CaseError('%s: expected strings' % place)
             if case['name'] in cases:
                 raise CaseError('%s: the name is taken' % place)
-            if is_base(case) != ('base' not in case):
-                raise CaseError('%s: expected a base, or a file of this name in bases/' % place)
+            if is_base(case) + ('base' in case) + ('legs' in case) != 1:
+                raise CaseError('%s: expected a base, legs, or a file of this name in bases/' % place)
             cases[case['name']] = case
     unused = {os.path.basename(f)[:-5] for f in glob.glob(os.path.join(HERE, 'bases', '*.json'))} - set(cases)
     if unused:
@@ -50,6 +50,26 @@ def read_cases():
 
 def is_base(case):
     return os.path.exists(os.path.join(HERE, 'bases', case['name'] + '.json'))
+
+
+def is_of_legs(cases, name):
+    """Whether a case is a certificate of legs, or made of one."""
+    while 'base' in cases[name]:
+        name = cases[name]['base']
+    return 'legs' in cases[name]
+
+
+def whole_of(cases, name, found):
+    """The certificate of a case of legs, of those of all other cases."""
+    case = cases[name]
+    edits = case.get('edit', [])
+    if 'legs' in case:
+        whole = seal_legs({'format': 'taut-certificate', 'version': 7, 'illustration': None,
+                           'generator': {'name': 'expand.py', 'version': '1'},
+                           'legs': [found[leg] for leg in case['legs']]})
+    else:
+        whole = whole_of(cases, case['base'], found)
+    return seal_legs(edited(whole, edits, name), edits) if case.get('seal', True) else edited(whole, edits, name)
 
 
 def draft_of(cases, name, users=()):
@@ -219,7 +239,11 @@ def main(folder, add_hints):
     for outcome in OUTCOMES:
         shutil.rmtree(os.path.join(folder, outcome), ignore_errors=True)
         os.makedirs(os.path.join(folder, outcome))
-    for name, certificate in certificates_of(cases, list(cases), add_hints).items():
+    of_legs = [name for name in cases if is_of_legs(cases, name)]
+    found = certificates_of(cases, [name for name in cases if name not in of_legs], add_hints)
+    for name in of_legs:
+        found[name] = whole_of(cases, name, found)
+    for name, certificate in found.items():
         write(folder, cases[name], text_of(certificate, cases[name].get('text', [])))
     print('%d certificates in %s' % (len(cases), folder))
 

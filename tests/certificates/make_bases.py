@@ -1277,10 +1277,11 @@ def lifted(name, query, **time):
     return dict(pr, time=dict(time))
 
 
-def proved_move(pr, pa, boxes, below=0.95, above=1.06):
-    """With limits of all kinds."""
+def proved_move(pr, pa, boxes, below=0.95, above=1.06, adds_limits=True):
+    """With limits of all kinds, or with those of the problem alone."""
     seen = list(seen_of(pr, pa))
-    pr = dict(pr, time=dict(limits_of(seen, above), **pr['time']))
+    if adds_limits:
+        pr = dict(pr, time=dict(limits_of(seen, above), **pr['time']))
     count = len(pa['waypoints']) - control_points(pa) + 1
     least = [[math.inf, math.inf] for _ in range(count)]
     for z, at, tensions in seen:
@@ -1329,6 +1330,30 @@ def moves():
         'value': ['%.4f' % (low - 0.1), '%.4f' % (low + 0.1)], 'limit': '0.1'})
 
 
+# ---- legs -----------------------------------------------------------------------------------------------------------
+
+def legs():
+    """Paths and moves that follow one another, each with a load of its own."""
+    a, m, b = [-2.3, 1.6], [-2.26, 1.57], [-2.2, 1.55]
+    typed = lambda *points: [[str(x) for x in p] for p in points]
+    heavy = (ROBOT1[0], dict(ROBOT1[1], wrench=['0', '0', '1.02', '0', '0', '0']))
+    yield 'leg_there', proved(problem('robot1-legs, leg there', ROBOT1, SLICE, typed(a, b)),
+                              straight(waypoint(a), waypoint(b)))
+    yield 'leg_on', proved(problem('robot1-legs, leg on', heavy, SLICE, typed(b, m)),
+                           spline(waypoint(b), waypoint(m)))
+    yield 'leg_back', proved(problem('robot1-legs, leg back', ROBOT1, SLICE, typed(m, a)),
+                             straight(waypoint(m), waypoint(a)))
+
+    there, back = [0.0, 0.0, 0.3, 0.1, 0.05, 0.0], [0.015, -0.01, 0.3, 0.2, 0.1, 0.15]
+    limits = {'load_speed_m_s': '0.1', 'load_angular_speed_rad_s': '0.5', 'winch_speed_m_s': ['0.2'] * 6}
+    for name, ends, items in (('leg_of_a_move', (there, back), LIFTED['items']),
+                              ('leg_of_a_move_back', (back, there), LIFTED['items'][:1])):
+        pr = lifted('robot2-legs, ' + name, typed(*ends), **limits)
+        pr['load'] = dict(pr['load'], items=copy.deepcopy(items))
+        pa = dict(straight(*map(waypoint, ends)), timing=law(0.25, [0, 1], 12))
+        yield name, proved_move(pr, pa, 16, adds_limits=False)
+
+
 # ---- files ----------------------------------------------------------------------------------------------------------
 
 def differences(kept, made, at=''):
@@ -1351,7 +1376,7 @@ def nearly_equal(a, b):
 def main(check):
     wrong, names = [], set()
     for topic in (in_parameters, other_angles, splines, implied, between_given_poses, tolerated, stretches,
-                  held_deviations, grazing, clearances, moves):
+                  held_deviations, grazing, clearances, moves, legs):
         for name, certificate in topic():
             names.add(name)
             file = os.path.join(BASES, name + '.json')

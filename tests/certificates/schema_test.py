@@ -44,6 +44,8 @@ bodies_of_version_4 version_5_without_bodies bodies_without_directions direction
 direction_of_other_axes bodies_without_apart margins_without_clearance body_without_a_shape body_of_two_shapes
 body_of_no_point mesh half_space_of_the_platform half_space_turned clearance_of_no_class
 apart_of_a_box_that_changes_nothing
+legs_of_one legs_missing legs_claim_more legs_with_a_path legs_of_version_6 version_7_of_a_path
+legs_with_a_leg_that_is_null legs_of_legs
 """.split()
 caught = set()
 for path in certificates('malformed'):
@@ -62,7 +64,7 @@ for name in missed:
 # Every key of every object matters: without it, or with another beside it, a certificate is malformed.
 FREE = ('generator', 'illustration', 'constants')
 for name in ('stretches_open', 'tolerances_of_lengths', 'implied_sphere', 'refuted_by_a_deviation', 'refuted_singular',
-             'clearance', 'contact'):
+             'clearance', 'contact', 'legs'):
     with open(os.path.join(folder_of_cases, 'accepted', name + '.json')) as f:
         text = f.read()
 

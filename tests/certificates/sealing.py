@@ -41,6 +41,17 @@ def time_clause(verdict, has_law, may_stop):
     return text_of('kMoveRefutedClause' if has_law else 'kAtRestClause')
 
 
+def legs_claim(verdicts, are_moves):
+    """The claim of a certificate of legs."""
+    if 'refuted' in verdicts:
+        return 'Leg %d of %d%s' % (verdicts.index('refuted') + 1, len(verdicts), text_of('kLegsRefutedClaim'))
+    if set(verdicts) != {'proved'}:
+        return text_of('kLegsUndecidedClaim')
+    kind = 'kLegsOfMovesClause' if are_moves else 'kLegsOfPathsClause'
+    return 'There are %d%s%s%s' % (len(verdicts), text_of('kLegsProvedClaim'), text_of(kind),
+                                   text_of('kBetweenLegsClause'))
+
+
 CLAIMS = claims()
 ITEMS_CLAUSE = text_of('kItemsClause')
 
@@ -87,6 +98,25 @@ def seal(certificate, keep=()):
     c.pop('footer', None)
     c['footer'] = {'waypoints': len(c['path']['waypoints']), 'segments': len(c['segments']),
                    'boxes': sum(len(s['boxes']) for s in c['segments']), 'sha256': digest(c)}
+    return c
+
+
+def seal_legs(certificate, edits=()):
+    """The same of a certificate of legs: what follows of the whole, and of each leg that an edit is about, unless that
+    is about a digest of the leg; not what edits are about themselves."""
+    c, paths = certificate, [edit['path'].split('/')[1:] for edit in edits]
+    for k, leg in enumerate(c['legs']):
+        about = [path[2] for path in paths if len(path) > 2 and path[:2] == ['legs', str(k)]]
+        if about and not {'path_sha256', 'problem_sha256', 'footer'} & set(about):
+            seal(leg, about)
+    keep = {path[0] for path in paths}
+    verdicts = [leg['verdict'] for leg in c['legs']]
+    if 'verdict' not in keep:
+        c['verdict'] = 'refuted' if 'refuted' in verdicts else 'proved' if set(verdicts) == {'proved'} else 'undecided'
+    if 'claim' not in keep:
+        c['claim'] = legs_claim(verdicts, 'timing' in c['legs'][0]['path'])
+    c.pop('footer', None)
+    c['footer'] = {'legs': len(c['legs']), 'sha256': digest(c)}
     return c
 
 

@@ -57,6 +57,7 @@ TEST(Agreement, OnEveryPathOfTheCertificatesOfTheTests) {
       const std::string name = file.stem();
       if (name.starts_with("attack_tower") || name == "implied_zero_at_the_end_of_the_tube") continue;
       const json certificate = json::parse(checker::read_text(file));
+      if (certificate.contains("legs")) continue;  // each is a certificate of its own
       json motion = certificate["path"];
       if (motion.is_object()) motion.erase("directions");
       if (!judged.insert(certificate["problem"].dump() + motion.dump()).second) continue;
@@ -104,6 +105,7 @@ TEST(Agreement, OnWhatCertificatesSay) {
     SCOPED_TRACE(file);
     if (file.stem().string().starts_with("attack_tower")) continue;  // numbers that the prover refuses
     const std::string text = checker::read_text(file);
+    if (json::parse(text).contains("legs")) continue;  // each is a certificate of its own
     json certificate = parse_certificate(text, file);
     const std::string rewritten = certificate_text(read_certificate(certificate));
     json written = json::parse(rewritten);

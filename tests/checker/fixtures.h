@@ -68,4 +68,12 @@ inline void seal(nlohmann::json& certificate) {
       {"waypoints", waypoints}, {"segments", size_of(segments)}, {"boxes", boxes}, {"sha256", digest}};
 }
 
+/// The same of a certificate of legs, whose legs may have been altered.
+inline void seal_legs(nlohmann::json& certificate) {
+  for (nlohmann::json& leg : certificate["legs"]) seal(leg);
+  certificate.erase("footer");
+  const std::string digest = taut::sha256(certificate);
+  certificate["footer"] = {{"legs", certificate["legs"].size()}, {"sha256", digest}};
+}
+
 }  // namespace taut::checker

@@ -65,6 +65,18 @@ class Json(InFolder):
                              "--grow", code=0)
         self.assertTrue(grown["growth"]["whole"])
 
+    def test_legs(self):
+        """A plan of a case of legs, and what taut-check says of its certificate."""
+        case = os.path.join(CASES, "moves", "pick-and-place.yaml")
+        planned = self.printed(TAUT, "plan", case, "--out", self.path("legs"), "--no-report", code=0,
+                               form="plan_of_legs")
+        self.assertEqual([leg["name"] for leg in planned["legs"]], ["fetch", "carry", "return"])
+        checked = self.printed(CHECK, self.path("legs", "certificate.json"), case, code=0)
+        self.assertEqual([leg["verdict"] for leg in checked["legs"]], ["proved"] * 3)
+        self.printed(TAUT, "plan", case, "--out", self.path("legs"), "--no-report", "--budget", "1e-9", code=2,
+                     form="plan_of_legs")
+        self.printed(TAUT, "show", case, code=3)
+
     def test_bodies(self):
         """Plans, audits, shown cases and reports of cases with bodies; refuted ones, too."""
         case = os.path.join(CASES, "cranes", "portal-20t-stack.yaml")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 foreach(name end_to_end init signature audit logs regress robustness compare report sensitivity map no_path show
-    loads bodies moves timed_audit wrap json messages angles terminal levels formal monitor)
+    loads bodies moves timed_audit legs wrap json messages angles terminal levels formal monitor)
   taut_add_script_test(cli ${name} LABELS unit TIMEOUT 1800
     ARGUMENTS $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 endforeach()

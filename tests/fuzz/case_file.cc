@@ -7,13 +7,14 @@
 #include <string>
 
 #include "base/input_error.h"
+#include "case/case_of_legs.h"
 #include "kinematics/pose_sampler.h"
 #include "problem/problem.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace taut;
   try {
-    const Case read = parse_case(std::string(reinterpret_cast<const char*>(data), size), "fuzz.yaml");
+    const Case read = parse_case_of_legs(std::string(reinterpret_cast<const char*>(data), size), "fuzz.yaml").whole;
     static_cast<void>(to_json(read.problem).dump());
     const PoseSampler sampler(read.problem);
     static_cast<void>(sampler);
