@@ -72,9 +72,11 @@ std::string headline(const Word& word, const std::vector<LegOnPage>& legs) {
                      decisive->summary.headline);
 }
 
+/// Those of tensions, lengths and bodies; the leg's own report has all.
 Html numbers_of(const Summary& summary) {
   Html lines;
   for (const KeyNumber& number : summary.key_numbers) {
+    if (number.is_of_rate || number.key == std::string_view("duration")) continue;
     lines += html("{}{}: {}", lines.empty() ? Html() : html("<br>"), number.title, number.value);
   }
   return lines;
@@ -91,15 +93,12 @@ Html table_of_legs(const std::vector<LegOnPage>& legs) {
   std::vector<std::vector<Html>> rows;
   for (std::size_t k = 0; k < legs.size(); ++k) {
     const Certificate& certificate = legs[k].scene.certificate;
-    Html load;
-    for (const std::string& line : brief_lines(load_statement(certificate.problem))) {
-      load += html("{}<bdi>{}</bdi>", load.empty() ? Html() : html("<br>"), line);
-    }
+    const std::vector<std::string> load = brief_lines(load_statement(certificate.problem));
     const auto& timing = certificate.path.timing;
     const Html leg = html("<bdi>{} {}</bdi>", k + 1, legs[k].name);
     rows.push_back(
         {is_folder_name(legs[k].name) ? html("<a href=\"{}-{}/report.html\">{}</a>", k + 1, legs[k].name, leg) : leg,
-         html("{}", verdict_in_full(legs[k].summary)), load,
+         html("{}", verdict_in_full(legs[k].summary)), html("<bdi>{}</bdi>", load.empty() ? "" : load.front()),
          timing ? html("{}", fmt::format("{:.4g} s", timing->duration_s())) : html("–"), numbers_of(legs[k].summary)});
   }
   return table(html("Legs"),
@@ -152,7 +151,7 @@ std::string legs_page(const checker::CheckResult& checked, const ReportOptions& 
                         .revision = options.revision,
                         .date = options.date,
                         .policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:",
-                        .more_style = ""},
+                        .more_style = "#legs td:nth-child(-n+2) { white-space: nowrap; }\n"},
                        fmt::format("<main>\n{}</main>\n", body.str()));
 }
 

@@ -10,8 +10,8 @@
 
 namespace taut {
 
-/// A complete HTML document, UTF-8, without a script. Its links lead to K-NAME/report.html, where `taut plan` writes the
-/// report of leg K.
+/// A complete HTML document, UTF-8, without a script. Its links lead to K-NAME/report.html, where `taut plan` writes
+/// the report of leg K.
 /// @throws InputError where a report can't show what is in a leg.
 /// @pre a certificate of legs, of which the checker rejected nothing
 [[nodiscard]] std::string legs_page(const checker::CheckResult& checked, const ReportOptions& options);
