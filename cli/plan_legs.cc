@@ -241,6 +241,7 @@ int run_plan_of_legs(const CaseOfLegs& the_case, const PlanArguments& arguments,
     }
   }
   files.push_back({out / "certificate.json", planned.text});
+  if (!arguments.no_report) files.push_back({out / "report.html", html_report(planned.checked, report_options)});
   add_tables_of_all(the_case, planned, out, files);
   write_whole(files, remove_first);
 
@@ -254,10 +255,10 @@ int run_plan_of_legs(const CaseOfLegs& the_case, const PlanArguments& arguments,
     return code;
   }
   print(the_case, planned, legs, report_options);
-  print_wrapped(fmt::format("Written to {}: certificate.json of all legs{}; of each leg its own, in {} to {}",
-                            sanitize(out.string()), duration_s(planned) ? ", winches.csv, poses.csv, poses.tum" : "",
-                            folder_name(the_case.legs.front(), 0),
-                            folder_name(the_case.legs.back(), the_case.legs.size() - 1)));
+  print_wrapped(fmt::format(
+      "Written to {}: certificate.json{} of all legs{}; of each leg its own, in {} to {}", sanitize(out.string()),
+      arguments.no_report ? "" : " and report.html", duration_s(planned) ? ", winches.csv, poses.csv, poses.tum" : "",
+      folder_name(the_case.legs.front(), 0), folder_name(the_case.legs.back(), the_case.legs.size() - 1)));
   return code;
 }
 

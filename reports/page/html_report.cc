@@ -10,6 +10,7 @@
 #include "reports/page/assurance_drawing.h"
 #include "reports/page/document.h"
 #include "reports/page/first_page.h"
+#include "reports/page/legs_page.h"
 #include "reports/page/margins.h"
 #include "reports/page/no_path_page.h"
 #include "reports/page/plane.h"
@@ -94,6 +95,7 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
   if (is_about_no_path(checked)) return no_path_page(checked, options);
+  if (!checked.legs.empty()) return legs_page(checked, options);
   return html_report(ReportContext(checked), options);
 }
 std::string text_summary(const checker::CheckResult& checked, const ReportOptions& options) {

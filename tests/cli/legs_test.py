@@ -114,13 +114,36 @@ class Legs(InFolder):
             said = run(TAUT, *command)
             self.assertEqual(said.returncode, 3, command)
             self.assertIn("query.legs: got legs", said.stderr, command)
-        for command in (("report", whole), ("monitor", whole, csv_file), ("formal", whole)):
+        for command in (("report", whole, "--text"), ("monitor", whole, csv_file), ("formal", whole)):
             said = run(TAUT, *command)
             self.assertEqual(said.returncode, 3, command)
             self.assertIn("several legs", said.stderr, command)
         said = run(TAUT, "plan", self.case, "--save-atlas", self.path("atlas"))
         self.assertEqual(said.returncode, 3)
         self.assertIn("--save-atlas", said.stderr)
+
+    def test_the_overview_leads_to_the_reports_of_the_legs(self):
+        self.plan()
+        page = text_of(self.path("out", "report.html"))
+        self.assertIn("All 3 legs are proved", page)
+        self.assertIn("taking a load and putting it down", page)
+        for folder in FOLDERS:
+            self.assertIn(f'href="{folder}/report.html"', page)
+        self.assertNotIn("<script", page)
+        again = self.path("again.html")
+        said = run(TAUT, "report", self.path("out", "certificate.json"), "--out", again)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertEqual(text_of(again), page)
+        self.plan(case=self.overloaded, code=1)
+        page = text_of(self.path("out", "report.html"))
+        self.assertIn("DO NOT RUN", page)
+        self.assertIn("Leg 2 of 3, carry: ", page)
+        self.assertNotIn("All 3 legs are proved", page)
+        self.plan("--max-seconds", "0", code=2)
+        page = text_of(self.path("out", "report.html"))
+        self.assertIn("UNCHECKED", page)
+        self.assertNotIn("PROVED", page)
+        self.assertNotIn("are proved", page)
 
     def test_regress_knows_them(self):
         said = run(TAUT, "regress", self.case, "--json")
