@@ -79,6 +79,8 @@ class Audit(Audits):
             name = os.path.relpath(case, CASES).replace(os.sep, "-")
             if not re.search("^audit:", text_of(case), re.M):
                 continue  # planned: end_to_end_test.py
+            if re.search("^ +timed: true", text_of(case), re.M):
+                continue  # moves: timed_audit_test.py
             if "TAUT_SAMPLED" in os.environ and "\ntolerances:" in text_of(case):
                 continue  # how far each can grow takes minutes
             with self.subTest(case=name):
