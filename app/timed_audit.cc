@@ -31,16 +31,17 @@ namespace taut {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kAboveRounding = 1 + 1e-12;
 
 /// "0.0123 mm": a bound, rounded up.
 std::string millimetres_above(double metres) {
   const double digits = std::pow(10, 2 - std::floor(std::log10(std::max(metres * 1e3, 1e-12))));
-  return fmt::format("{:.3g} mm", std::ceil(metres * 1e3 * digits) / digits);
+  return fmt::format("{:.3g} mm", std::ceil(metres * 1e3 * digits * kAboveRounding) / digits);
 }
 std::string degrees_above(double radians) {
   const double degrees = radians * 180 / kPi;
   const double digits = std::pow(10, 2 - std::floor(std::log10(std::max(degrees, 1e-12))));
-  return fmt::format("{:.3g} deg", std::ceil(degrees * digits) / digits);
+  return fmt::format("{:.3g} deg", std::ceil(degrees * digits * kAboveRounding) / digits);
 }
 
 /// Roll, pitch and yaw [rad] of R(q), roll and yaw by whole turns next to `previous`. Near a pitch of ±90 degrees only
@@ -195,15 +196,20 @@ class TableReader {
 
   [[noreturn]] void complain_of_row(std::size_t row, double position_m, double angle_rad, std::size_t pieces) const {
     constexpr double kMore = 1.2;
+    const bool would_do = kMore * position_m <= kMostRounding_m && kMore * angle_rad <= kMostRounding_rad;
+    const std::string advice =
+        fmt::format("The rounding that would do for this row: {},{}; or is the row, or one next to it, wrong?",
+                    position_m > rounding_.position_m ? millimetres_above(kMore * position_m) : rounding_.position,
+                    angle_rad > rounding_.angle_rad ? degrees_above(kMore * angle_rad) : rounding_.angle);
     fail(
         rows_[row].line,
-        fmt::format("got a row that is {} and {} off the nearest smooth move (a spline in {}, no more than one for two "
-                    "rows), expected one within the stated rounding of {} and {}. The rounding that would do for this "
-                    "row: {},{}; or is the row, or one next to it, wrong?",
+        fmt::format("got a row that is {} and {} off the nearest smooth move (a spline in {}, no more than one for "
+                    "two rows), expected one within the stated rounding of {} and {}. {}",
                     millimetres_above(position_m), degrees_above(angle_rad), plural(pieces, "piece"),
                     rounding_.position, rounding_.angle,
-                    position_m > rounding_.position_m ? millimetres_above(kMore * position_m) : rounding_.position,
-                    angle_rad > rounding_.angle_rad ? degrees_above(kMore * angle_rad) : rounding_.angle));
+                    would_do ? advice
+                             : "No rounding will do: is the row, or one next to it, wrong, or have rows been left out, "
+                               "such as those of a rest?"));
   }
 
   /// Proves how far each row is from the move.

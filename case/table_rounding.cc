@@ -14,19 +14,17 @@ namespace taut {
 namespace {
 
 constexpr double kLeast = 1e-12;
-constexpr double kMostMetres = 1;
-constexpr double kMostRadians = 0.2;
 
 bool is_sensible(double size, Dimension dimension) {
-  return size >= kLeast && size <= (dimension == Dimension::kLength ? kMostMetres : kMostRadians);
+  return size >= kLeast && size <= (dimension == Dimension::kLength ? kMostRounding_m : kMostRounding_rad);
 }
 
 }  // namespace
 
 std::string rounding_expected(Dimension dimension) {
   return dimension == Dimension::kLength
-             ? fmt::format("a length from {} m to {} m, such as 0.1 mm", kLeast, kMostMetres)
-             : fmt::format("an angle from {} to {} rad, such as 0.01 deg", kLeast, kMostRadians);
+             ? fmt::format("a length from {} m to {} m, such as 0.1 mm", kLeast, kMostRounding_m)
+             : fmt::format("an angle from {} to {} rad, such as 0.01 deg", kLeast, kMostRounding_rad);
 }
 
 std::optional<RoundingSize> read_rounding_size(const std::string& text, Dimension dimension,
@@ -66,7 +64,8 @@ TableRounding table_rounding(double position_m, double angle_rad) {
     if (is_sensible(size, dimension)) continue;
     throw InputError(fmt::format("{}: got {}, expected {}", field, size, rounding_expected(dimension)), {"", 0, field});
   }
-  return {position_m, angle_rad, fmt::format("{} m", position_m), fmt::format("{} rad", angle_rad)};
+  return {std::nextafter(position_m, 0.0), std::nextafter(angle_rad, 0.0), fmt::format("{} m", position_m),
+          fmt::format("{} rad", angle_rad)};
 }
 
 }  // namespace taut

@@ -9,6 +9,10 @@
 
 namespace taut {
 
+/// The largest that may be stated.
+inline constexpr double kMostRounding_m = 1;
+inline constexpr double kMostRounding_rad = 0.2;
+
 /// Both above 0.
 struct TableRounding {
   double position_m = 0;        ///< by which the platform's origin may be displaced; not above what was typed

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How fast a move goes where: enclosures of σ' and σ'' over all times at which the move is on a part of its path, and one
-// time in the middle of these.
+// How fast a move goes where: enclosures of σ' and σ'' over all times at which the move is on a part of its path, and
+// one time in the middle of these.
 #pragma once
 
 #include <algorithm>

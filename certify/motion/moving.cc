@@ -90,7 +90,10 @@ std::optional<typename MovingModel<I>::Fastest> MovingModel<I>::fastest(const Mo
   const I first(static_cast<double>(segment.index));
   const std::optional<LawInstant<I>> middle = law_instant(*segment.timing, I(first + range));
   if (!middle) return std::nullopt;
-  const PathRates<I> at = rates_.at(segment, I(middle->place - first));
+  // Beside the index, a number of the range may have been rounded: the place has to be in what accelerations are of.
+  const I place = middle->place - first;
+  if (!(place.lower() >= range.lower() && place.upper() <= range.upper())) return std::nullopt;
+  const PathRates<I> at = rates_.at(segment, place);
   const Rates<I> all = by_time(path, law.rate, law.acceleration), here = by_time(at, middle->rate, I(0.0));
   const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, all),
                       winches_here = winch_rates(model, at.p, at.r_WP, here);

@@ -5,7 +5,8 @@
 // (law_range.h), with them of the platform's velocities and accelerations, and with these of w_in and of all rates
 // (kinematics/moving_load.h). As boxes shrink, these enclosures do, in proportion. Speeds are bounded once more, from
 // one time in the middle and the accelerations around it: a product such as that of ṡ and dL/ds can't see that one of
-// them falls where the other rises, and a move at the limit of a speed would take boxes without number. Where a move may be slowed down, ṡ is any share of σ', and s̈ what that leaves of σ'' and a change of the share.
+// them falls where the other rises, and a move at the limit of a speed would take boxes without number.
+// Where a move may be slowed down, ṡ is any share of σ', and s̈ what that leaves of σ'' and a change of the share.
 // docs/theory.md, "Moves in time".
 #pragma once
 

@@ -11,9 +11,9 @@
 // second term is symmetric,
 //     velocity  X' σ',    acceleration  X'' σ'^2 + X' σ''   of a point X(s) = p + R x, and of a length |d_i|,
 //     ω = w σ',           ω' = w' σ'^2 + w σ''              (by time).
-// A speed is also bounded from one time m in the middle of those on the box, none of which is farther from m than some h:
-// as a length's rate of change at t is that at m and h accelerations at most, and the square of a velocity v changes at
-// the rate 2 v v'. What is run slower than the law is slower than this.
+// A speed is also bounded from one time m in the middle of those on the box, none of which is farther from m than some
+// h: as a length's rate of change at t is that at m and h accelerations at most, and the square of a velocity v changes
+// at the rate 2 v v'. What is run slower than the law is slower than this.
 // A winch's power is the greatest tension of its cable, of every load and deviation, times that speed of |d_i|, whose
 // magnitude counts: hoisting and lowering alike.
 // Where the problem states a stopping time T, the move may be run as z = σ(τ(t)), too, with τ' from 0 to 1 and |τ''| <=
