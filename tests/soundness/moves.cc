@@ -472,7 +472,7 @@ class MoveJudge {
     if ((all.determinant > BigFloat(0.0)) != positive_) breach(fmt::format("proved, but singular {}", where));
   }
   [[nodiscard]] BigFloat tolerance(std::size_t id) const {
-    constexpr double kLeastSize = 1e-10;  // of a path that stays where it is, rates are 0
+    constexpr double kLeastSize = 1e-8;  // of a path that stays where it is, rates are 0
     return BigFloat(kError) * BigFloat(std::max({std::abs(low_[id]), std::abs(high_[id]), kLeastSize}));
   }
 
