@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -24,6 +26,14 @@ void require_plannable(const Case& the_case) {
     throw FieldError("query", "", "expected the key 'query': what to plan (a case without one is for taut audit)");
   }
   require_query_on_constraints(the_case.problem, the_case.units.length);
+}
+
+void require_limits_in_time(const Case& the_case, const std::string& option) {
+  if (the_case.problem.time) return;
+  throw InputError(ErrorCode::kUse,
+                   fmt::format("{}: got a case without the key 'time', expected one that says what winches and load "
+                               "may do (docs/case-format.md)",
+                               option));
 }
 
 namespace {

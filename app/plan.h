@@ -22,6 +22,10 @@ namespace taut {
 /// @throws InputError where there is not.
 void require_plannable(const Case& the_case);
 
+/// For what is about moves. @param option  how the user asked for it @throws InputError where the case has no limits in
+/// time.
+void require_limits_in_time(const Case& the_case, const std::string& option);
+
 /// What growing an atlas to the case's max_charts may cost, from the first charts; it may end before.
 struct GrowthEstimate {
   int most_charts = 0;

@@ -12,6 +12,7 @@
 
 #include "app/meshes.h"
 #include "app/path_hints.h"
+#include "app/plan.h"
 #include "app/prove.h"
 #include "base/input_error.h"
 #include "base/plural.h"
@@ -24,33 +25,29 @@
 #include "path_io/path_file.h"
 #include "path_io/path_summary.h"
 #include "planner/move_fit.h"
+#include "reports/summary/angles.h"
+#include "reports/summary/display_units.h"
 #include "reports/summary/illustration.h"
 #include "reports/summary/shown_bodies.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kAboveRounding = 1 + 1e-12;
 
 /// "0.0123 mm": a bound, rounded up.
-std::string millimetres_above(double metres) {
-  const double digits = std::pow(10, 2 - std::floor(std::log10(std::max(metres * 1e3, 1e-12))));
-  return fmt::format("{:.3g} mm", std::ceil(metres * 1e3 * digits * kAboveRounding) / digits);
-}
+std::string millimetres_above(double metres) { return DisplayUnits().length.up(metres, 3) + " mm"; }
 std::string degrees_above(double radians) {
-  const double degrees = radians * 180 / kPi;
-  const double digits = std::pow(10, 2 - std::floor(std::log10(std::max(degrees, 1e-12))));
-  return fmt::format("{:.3g} deg", std::ceil(degrees * digits * kAboveRounding) / digits);
+  constexpr double kDegrees = 180 / kPi * (1 + 1e-15);
+  return rounded_up(kDegrees * radians, 3) + " deg";
 }
 
 /// Roll, pitch and yaw [rad] of R(q), roll and yaw by whole turns next to `previous`. Near a pitch of ±90 degrees only
 /// one of roll and yaw matters.
 std::array<double, 3> roll_pitch_yaw(const Eigen::Quaterniond& q,
                                      const std::optional<std::array<double, 3>>& previous) {
-  const Matrix3<double> r = q.toRotationMatrix();
-  std::array<double, 3> result = {std::atan2(r(2, 1), r(2, 2)), std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0))),
-                                  std::atan2(r(1, 0), r(0, 0))};
+  std::array<double, 3> result = angles_of(AngleKind::kRollPitchYaw, q.toRotationMatrix());
   if (!previous) return result;
   for (const std::size_t i : {0U, 2U}) result[i] += 2 * kPi * std::round(((*previous)[i] - result[i]) / (2 * kPi));
   return result;
@@ -312,12 +309,7 @@ nlohmann::json to_json(const FittedTable& table) {
 }
 
 void require_timed(const AuditRequest& request, const Case& the_case, const std::string& option) {
-  if (!the_case.problem.time) {
-    throw InputError(ErrorCode::kUse,
-                     fmt::format("{}: got a case without the key 'time', expected one that says what winches and load "
-                                 "may do (docs/case-format.md)",
-                                 option));
-  }
+  require_limits_in_time(the_case, option);
   if (request.law) {
     throw InputError(ErrorCode::kUse, fmt::format("{}: got a law between rows, too, expected none: a move is fitted to "
                                                   "the rows",

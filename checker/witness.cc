@@ -56,8 +56,7 @@ Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Pa
       throw Rejected("the witness is of a limit that the problem does not state");
     }
     // That the move may be run slower as well does not help it.
-    const Speed speed = speed_by_law(problem, path, witness.at.segment, there);
-    return quantity_of_move(machine, stated, moving(machine, problem, path, witness.at.segment, there, speed), witness);
+    return quantity_of_move(machine, stated, moving(machine, problem, path, witness.at.segment, there), witness);
   }
   if (rate_of(witness.kind)) throw Rejected("the witness is of a limit in time, and the path has no law");
   const auto quantity_at_rest = [&](const Machine& of, const Geometry& geometry) {

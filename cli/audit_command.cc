@@ -246,20 +246,6 @@ ResultInputs inputs_of(const AuditArguments& arguments, const AuditRequest& requ
   return inputs;
 }
 
-/// The folder of the results, made if need be; none of them may take the place of what is read.
-std::filesystem::path folder_of(const AuditArguments& arguments, const AuditRequest& request,
-                                const ResultInputs& inputs) {
-  const auto stem = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
-  std::filesystem::path out =
-      make_result_folder(arguments.out, stem(arguments.case_path) + "-audit-" + stem(request.path.name), inputs);
-  for (const char* name : kResultFiles) {
-    for (const std::string& read : {request.path.name, arguments.case_path, arguments.key}) {
-      require_another(out / name, read);
-    }
-  }
-  return out;
-}
-
 /// What an audit writes: under temporary names until all of it is there.
 struct AuditFiles {
   explicit AuditFiles(std::filesystem::path folder)
@@ -377,6 +363,15 @@ void print_result(const Audit& result, const Case& the_case, const PathSource& s
 
 }  // namespace
 
+std::filesystem::path audit_folder(const AuditArguments& arguments, const std::string& path,
+                                   const ResultInputs& inputs) {
+  const auto stem = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
+  std::filesystem::path out =
+      make_result_folder(arguments.out, stem(arguments.case_path) + "-audit-" + stem(path), inputs);
+  require_results_apart(out, {path, arguments.case_path, arguments.key});
+  return out;
+}
+
 void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command.add_option("CASE", arguments.case_path, "case file (docs/case-format.md); needs no query")->required();
   command.add_option("PATH", arguments.path,
@@ -431,7 +426,7 @@ int run_audit(const AuditArguments& arguments) {
   std::fflush(stdout);
 
   const ResultInputs inputs = inputs_of(arguments, request);
-  const std::filesystem::path out = folder_of(arguments, request, inputs);
+  const std::filesystem::path out = audit_folder(arguments, request.path.name, inputs);
   const Interruption interruption;  // before there is a file that a signal could leave behind
   AuditFiles files(out);
   const Audit result = audit(arguments, case_, key ? &*key : nullptr, source, files, interruption.token());

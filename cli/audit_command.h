@@ -3,10 +3,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <string>
 
 #include "app/headroom.h"
 #include "app/recheck.h"
+#include "cli/result_folder.h"
 
 namespace taut {
 
@@ -27,6 +29,11 @@ struct AuditArguments {
 };
 
 void add_audit_options(CLI::App& command, AuditArguments& arguments);
+
+/// The folder of the results of auditing the file `path`, made if need be; none of them may take the place of what is
+/// read.
+[[nodiscard]] std::filesystem::path audit_folder(const AuditArguments& arguments, const std::string& path,
+                                                 const ResultInputs& inputs);
 
 /// @returns the exit code. @throws InputError
 [[nodiscard]] int run_audit(const AuditArguments& arguments);

@@ -41,10 +41,8 @@ void require_others(const PlanArguments& arguments, const std::filesystem::path&
     require_writable(arguments.save_atlas);
     for (const std::string& file : read) require_another(arguments.save_atlas, file);
   }
-  for (const char* name : kResultFiles) {
-    for (const std::string& file : read) require_another(out / name, file);
-    for (const std::string& file : {arguments.atlas, arguments.save_atlas}) require_another(out / name, file);
-  }
+  require_results_apart(out, read);
+  require_results_apart(out, {arguments.atlas, arguments.save_atlas});
 }
 
 /// What growing the atlas will cost, at most.
@@ -96,11 +94,7 @@ void require_move(const Case& the_case, const PlanArguments& arguments) {
                              : arguments.speed   ? "--speed"
                              : arguments.timed   ? "--timed"
                                                  : nullptr;
-  if (option == nullptr || the_case.problem.time) return;
-  throw InputError(ErrorCode::kUse,
-                   fmt::format("{}: got a case without the key 'time', expected one that says what winches and load "
-                               "may do (docs/case-format.md)",
-                               option));
+  if (option != nullptr) require_limits_in_time(the_case, option);
 }
 
 /// All but what is called while it plans.
@@ -124,11 +118,10 @@ PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& ar
   std::optional<Stopwatch> growing;
   const auto progress = [&](const PlanProgress& at) {
     line.show([&] {
-      const std::string charts = plural(static_cast<std::size_t>(at.charts), "chart");
-      return growing ? fmt::format("growing the atlas: {}, {:.0f} of at most {:.6g} s", charts, growing->seconds(),
-                                   arguments.grow_seconds)
-             : at.move_tries > 0 ? fmt::format("proving the move: law {}", at.move_tries)
-                                 : "planning: " + charts;
+      if (!growing) return plan_progress_text(at);
+      return fmt::format("growing the atlas: {}, {:.0f} of at most {:.6g} s",
+                         plural(static_cast<std::size_t>(at.charts), "chart"), growing->seconds(),
+                         arguments.grow_seconds);
     });
   };
   PlannedCaseOptions options = options_of(arguments, key);

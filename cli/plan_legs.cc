@@ -54,12 +54,7 @@ PlannedLegs plan_with_progress(const CaseOfLegs& the_case, const PlanArguments& 
   const auto at_leg = [&](std::size_t k) {
     at = fmt::format("leg {} of {}, {}: ", k + 1, the_case.legs.size(), the_case.legs[k].name);
   };
-  const auto progress = [&](const PlanProgress& now) {
-    line.show([&] {
-      return at + (now.move_tries > 0 ? fmt::format("proving the move: law {}", now.move_tries)
-                                      : "planning: " + plural(static_cast<std::size_t>(now.charts), "chart"));
-    });
-  };
+  const auto progress = [&](const PlanProgress& now) { line.show([&] { return at + plan_progress_text(now); }); };
   return plan_legs(the_case.legs, options, at_leg, progress, stop);
 }
 
@@ -162,10 +157,7 @@ void print(const CaseOfLegs& the_case, const PlannedLegs& planned, const std::ve
     for (const std::string& line : brief_lines(load_statement(leg.the_case))) print_wrapped("Load: " + sanitize(line));
     print_verdict(verdict_in_full(shown), said(leg.the_case, leg.planned.planned).text);
     print_key_numbers(shown.key_numbers);
-    if (const std::string may_be = hint(leg.the_case, leg.planned.planned.plan); !may_be.empty()) print_wrapped(may_be);
-    if (leg.outcome.is_proved() && leg.planned.planned.plan.move) {
-      for (const std::string& text : move_sentences(leg.the_case, *leg.planned.planned.plan.move)) print_wrapped(text);
-    }
+    print_remarks(leg.the_case, leg.outcome);
   }
   fmt::print("\n");
   print_wrapped(sentence(planned.checked));
@@ -204,11 +196,9 @@ int run_plan_of_legs(const CaseOfLegs& the_case, const PlanArguments& arguments,
   inputs.add_file("case", arguments.case_path);
   const fs::path out = make_result_folder(arguments.out, fs::path(arguments.case_path).stem().string(), inputs);
   const std::vector<std::string> read = {arguments.case_path, arguments.key};
-  for (const char* name : kResultFiles) {
-    for (const std::string& file : read) require_another(out / name, file);
-    for (std::size_t k = 0; k < the_case.legs.size(); ++k) {
-      for (const std::string& file : read) require_another(out / folder_name(the_case.legs[k], k) / name, file);
-    }
+  require_results_apart(out, read);
+  for (std::size_t k = 0; k < the_case.legs.size(); ++k) {
+    require_results_apart(out / folder_name(the_case.legs[k], k), read);
   }
   for (const std::string& warning : the_case.whole.warnings) complain("warning: " + warning);
 

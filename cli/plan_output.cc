@@ -11,6 +11,7 @@
 #include "cli/console.h"
 #include "cli/headroom_output.h"
 #include "cli/output.h"
+#include "cli/terminal.h"
 #include "cli/verdict_output.h"
 #include "path_io/path_csv.h"
 #include "reports/summary/bodies_statement.h"
@@ -171,6 +172,9 @@ std::string hint(const Case& the_case, const Plan& plan) {
   return reversed_load_hint(the_case.problem, plan.path);
 }
 
+namespace {
+
+/// Of a move that is proved: how long it takes, and how fast it might be.
 std::vector<std::string> move_sentences(const Case& the_case, const MoveStatistics& move) {
   constexpr double kSame = 1e-4;
   std::vector<std::string> result;
@@ -195,6 +199,8 @@ std::vector<std::string> move_sentences(const Case& the_case, const MoveStatisti
   result.push_back(text + ".");
   return result;
 }
+
+}  // namespace
 
 nlohmann::json plan_json(const Case& the_case, const PlanOutcome& outcome) {
   const Plan& plan = outcome.planned.plan;
@@ -237,6 +243,18 @@ nlohmann::json plan_json(const Case& the_case, const PlanOutcome& outcome) {
   return result;
 }
 
+std::string plan_progress_text(const PlanProgress& at) {
+  return at.move_tries > 0 ? fmt::format("proving the move: law {}", at.move_tries)
+                           : "planning: " + plural(static_cast<std::size_t>(at.charts), "chart");
+}
+
+void print_remarks(const Case& the_case, const PlanOutcome& outcome) {
+  const Plan& plan = outcome.planned.plan;
+  if (const std::string may_be = hint(the_case, plan); !may_be.empty()) print_wrapped(may_be);
+  if (!outcome.is_proved() || !plan.move) return;
+  for (const std::string& sentence : move_sentences(the_case, *plan.move)) print_wrapped(sentence);
+}
+
 void print_result(const Case& the_case, const PlanOutcome& outcome, const std::optional<ReportContext>& context,
                   const ReportOptions& report_options) {
   const PlannedCase& planned = outcome.planned;
@@ -250,10 +268,7 @@ void print_result(const Case& the_case, const PlanOutcome& outcome, const std::o
   } else {
     print_verdict(checked.theorem ? "NO PATH EXISTS" : "UNCHECKED", text);
   }
-  if (const std::string may_be = hint(the_case, planned.plan); !may_be.empty()) print_wrapped(may_be);
-  if (outcome.is_proved() && planned.plan.move) {
-    for (const std::string& sentence : move_sentences(the_case, *planned.plan.move)) print_wrapped(sentence);
-  }
+  print_remarks(the_case, outcome);
   print_search(outcome, units);
   if (checked.outcome != checker::Outcome::kUnchecked) {
     if (planned.as_items) print_wrapped(sentence(*planned.as_items, units));

@@ -39,11 +39,14 @@ struct Said {
 /// What may be wrong with the case, if its first infeasible waypoint suggests it; else empty.
 [[nodiscard]] std::string hint(const Case& the_case, const Plan& plan);
 
-/// Of a move that is proved: how long it takes, and how fast it might be.
-[[nodiscard]] std::vector<std::string> move_sentences(const Case& the_case, const MoveStatistics& move);
-
 /// All that `--json` prints but its ending.
 [[nodiscard]] nlohmann::json plan_json(const Case& the_case, const PlanOutcome& outcome);
+
+/// For a progress line: "planning: 12 charts".
+[[nodiscard]] std::string plan_progress_text(const PlanProgress& at);
+
+/// Prints hint(), and of a move that is proved how long it takes and how fast it might be.
+void print_remarks(const Case& the_case, const PlanOutcome& outcome);
 
 /// Prints everything but the files.
 /// @param context  none where no path exists

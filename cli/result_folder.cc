@@ -94,6 +94,12 @@ fs::path make_result_folder(const std::string& wanted, const std::string& name, 
                                (all / name).string(), kMost));
 }
 
+void require_results_apart(const std::filesystem::path& folder, const std::vector<std::string>& read) {
+  for (const char* name : kResultFiles) {
+    for (const std::string& file : read) require_another(folder / name, file);
+  }
+}
+
 std::vector<fs::path> outdated_results(const fs::path& folder, const ResultInputs& inputs) {
   std::vector<fs::path> result = {folder / "path.csv"};
   // What only has the name of a result of ours is the user's.

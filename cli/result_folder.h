@@ -40,6 +40,9 @@ class ResultInputs {
 [[nodiscard]] std::filesystem::path make_result_folder(const std::string& wanted, const std::string& name,
                                                        const ResultInputs& inputs);
 
+/// Checks that no file that a plan or an audit may write into `folder` is one that it reads. @throws InputError
+void require_results_apart(const std::filesystem::path& folder, const std::vector<std::string>& read);
+
 /// The files of earlier results in `folder` that must be gone before new ones are renamed into place, path.csv as the
 /// last of them: path.csv, controller.csv and tables of a move, which must never stand beside a certificate that is not
 /// their own, and inputs.txt where it is about other inputs.

@@ -15,10 +15,9 @@
 #include "base/sanitize.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
-#include "cli/result_folder.h"
+#include "cli/plan_output.h"
 #include "cli/terminal.h"
 #include "cli/verdict_output.h"
-#include "path_io/move_tables.h"
 #include "path_io/path_csv.h"
 #include "reports/page/html_report.h"
 #include "reports/summary/bodies_statement.h"
@@ -126,14 +125,7 @@ int run_timed_audit(const AuditArguments& arguments, const Case& the_case, const
   inputs.add_file("case", arguments.case_path);
   inputs.add_file("path", request.path.name);
   inputs.add("timed", request.rounding ? request.rounding->position + ", " + request.rounding->angle : "exactly");
-  const auto stem = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
-  const std::filesystem::path out =
-      make_result_folder(arguments.out, stem(arguments.case_path) + "-audit-" + stem(request.path.name), inputs);
-  for (const char* name : kResultFiles) {
-    for (const std::string& read : {request.path.name, arguments.case_path, arguments.key}) {
-      require_another(out / name, read);
-    }
-  }
+  const std::filesystem::path out = audit_folder(arguments, request.path.name, inputs);
   const Interruption interruption;
   const TimedAudit audit = audit_move(source, the_case, {arguments.bits, key ? &*key : nullptr, arguments.max_seconds},
                                       interruption.token());
@@ -152,10 +144,7 @@ int run_timed_audit(const AuditArguments& arguments, const Case& the_case, const
   }
   if (exit_code(checked) == kProvedExit) {  // what is not proved is not for a machine to follow
     try {
-      MoveTables tables = move_tables(source.problem, source.path, the_case.move.rate_Hz, checked.sha256);
-      files.push_back({out / "winches.csv", std::move(tables.winches_csv)});
-      files.push_back({out / "poses.csv", std::move(tables.poses_csv)});
-      files.push_back({out / "poses.tum", std::move(tables.poses_tum)});
+      add_move_tables(out, move_tables(source.problem, source.path, the_case.move.rate_Hz, checked.sha256), files);
     } catch (const InputError& error) {  // too many rows: the audit is none the worse
       complain(fmt::format("warning: no tables of the move are written: {}", error.what()));
     }

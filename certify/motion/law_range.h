@@ -25,13 +25,13 @@ struct LawInstant {
   I reach;  ///< [s]
 };
 
-namespace law_range_detail {
-
 /// Times from u1 on piece `first` to u2 on piece `last`: exact numbers of pieces.
 struct TimeCover {
   std::size_t first = 0, last = 0;
   double u1 = 0, u2 = 1;
 };
+
+namespace law_range_detail {
 
 /// σ' and σ'' by u, for u in [from, to]: σ'' is a straight line in u, and σ' moves by no more than it says.
 template <class I>
@@ -55,19 +55,20 @@ std::size_t last_before(std::size_t n, F is_before) {
 
 }  // namespace law_range_detail
 
-/// All times at which σ is in `s`.
+/// All times at which σ is in `s`. For Interval under run_upward(); void if a fault was raised, as all that follows.
+/// @pre complaint(law, …) is empty
 ///
 /// The times t with a <= σ(t) <= b are one closed interval, since σ never falls. It lies between t1 and t2 where
 /// σ(t1) < a, or t1 = 0, and σ(t2) > b, or t2 = T: such times are found by halving, and σ was enclosed at each.
 template <class I>
-[[nodiscard]] law_range_detail::TimeCover time_cover(const TimeLaw& law, const I& s) {
+[[nodiscard]] TimeCover time_cover(const TimeLaw& law, const I& s) {
   constexpr double kFinest = 0x1p-20;  // of a piece
   const double a = lower_bound(s), b = upper_bound(s);
   const std::size_t n = law.pieces();
   const auto at_knot = [&](std::size_t k) {
     return k < n ? law_polynomial<I>(law, k).at(I(0.0)) : law_polynomial<I>(law, n - 1).at(I(1.0));
   };
-  law_range_detail::TimeCover cover;
+  TimeCover cover;
   // Knot `first` is before a, or 0; knot `last` + 1 is behind b, or n.
   cover.first =
       std::min(law_range_detail::last_before(n, [&](std::size_t k) { return upper_bound(at_knot(k)) < a; }), n - 1);
@@ -86,11 +87,10 @@ template <class I>
   return cover;
 }
 
-/// Over all times at which σ is in `s`. For Interval under run_upward(); void if a fault was raised.
-/// @pre complaint(law, …) is empty
+/// Over these times.
 template <class I>
-[[nodiscard]] LawRange<I> law_range(const TimeLaw& law, const I& s) {
-  const auto [first, last, u1, u2] = time_cover(law, s);
+[[nodiscard]] LawRange<I> law_range(const TimeLaw& law, const TimeCover& times) {
+  const auto [first, last, u1, u2] = times;
   LawRange<I> result = law_range_detail::over_part(law_polynomial<I>(law, first), u1, first == last ? u2 : 1);
   for (std::size_t k = first + 1; k <= last; ++k) {
     const LawRange<I> next = law_range_detail::over_part(law_polynomial<I>(law, k), 0, k == last ? u2 : 1);
@@ -100,10 +100,10 @@ template <class I>
   return {result.rate * inverse, result.acceleration * sqr(inverse)};
 }
 
-/// The middle of these times; nothing where it is not certain that σ is in `s` then. As law_range().
+/// The middle of these times; nothing where it is not certain that σ is in `s` then.
 template <class I>
-[[nodiscard]] std::optional<LawInstant<I>> law_instant(const TimeLaw& law, const I& s) {
-  const auto [first, last, u1, u2] = time_cover(law, s);
+[[nodiscard]] std::optional<LawInstant<I>> law_instant(const TimeLaw& law, const TimeCover& times, const I& s) {
+  const auto [first, last, u1, u2] = times;
   // In pieces, all of these are multiples of 2^-21 below 2^16, and exact.
   const double from = static_cast<double>(first) + u1, to = static_cast<double>(last) + u2, middle = (from + to) / 2;
   const std::size_t k = std::min(static_cast<std::size_t>(middle), law.pieces() - 1);

@@ -86,25 +86,23 @@ I magnitude_within(const Vector3<I>& v0, const Vector3<I>& v, const Vector3<I>& 
 template <class I>
 std::optional<typename MovingModel<I>::Fastest> MovingModel<I>::fastest(const Model<I>& model, const Segment& segment,
                                                                         const I& range, const PathRates<I>& path,
-                                                                        const LawRange<I>& law) const {
-  const I first(static_cast<double>(segment.index));
-  const std::optional<LawInstant<I>> middle = law_instant(*segment.timing, I(first + range));
-  if (!middle) return std::nullopt;
+                                                                        const LawRange<I>& law,
+                                                                        const LawInstant<I>& middle) const {
   // Beside the index, a number of the range may have been rounded: the place has to be in what accelerations are of.
-  const I place = middle->place - first;
+  const I place = middle.place - I(static_cast<double>(segment.index));
   if (!(place.lower() >= range.lower() && place.upper() <= range.upper())) return std::nullopt;
   const PathRates<I> at = rates_.at(segment, place);
-  const Rates<I> all = by_time(path, law.rate, law.acceleration), here = by_time(at, middle->rate, I(0.0));
+  const Rates<I> all = by_time(path, law.rate, law.acceleration), here = by_time(at, middle.rate, I(0.0));
   const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, all),
                       winches_here = winch_rates(model, at.p, at.r_WP, here);
   const Vector3<I> arm = turned(path.r_WP, model.p_PM), arm_here = turned(at.r_WP, model.p_PM);
   Fastest result;
   for (std::size_t i = 0; i < kCables; ++i) {
-    result.winch[i] = absolute(winches_here.speed[i] + plus_minus(middle->reach) * winches.acceleration[i]);
+    result.winch[i] = absolute(winches_here.speed[i] + plus_minus(middle.reach) * winches.acceleration[i]);
   }
   result.load =
-      magnitude_within(velocity_at(here, arm_here), velocity_at(all, arm), acceleration_at(all, arm), middle->reach);
-  result.spin = magnitude_within(here.angular_velocity, all.angular_velocity, all.angular_acceleration, middle->reach);
+      magnitude_within(velocity_at(here, arm_here), velocity_at(all, arm), acceleration_at(all, arm), middle.reach);
+  result.spin = magnitude_within(here.angular_velocity, all.angular_velocity, all.angular_acceleration, middle.reach);
   return result;
 }
 
@@ -114,8 +112,14 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
     throw std::logic_error("a segment without a time law, or of a law whose derivatives are not known");
   }
   const PathRates<I> path = rates_.at(segment, range);
-  LawRange<I> law = law_range(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
-  const std::optional<Fastest> fastest = has_speeds_ ? this->fastest(model, segment, range, path, law) : std::nullopt;
+  const I places = I(static_cast<double>(segment.index)) + range;
+  const TimeCover times = time_cover(*segment.timing, places);
+  LawRange<I> law = law_range<I>(*segment.timing, times);
+  std::optional<Fastest> most;
+  if (has_speeds_) {
+    const std::optional<LawInstant<I>> middle = law_instant(*segment.timing, times, places);
+    if (middle) most = fastest(model, segment, range, path, law, *middle);
+  }
   std::vector<LawRange<I>> corners = {law};
   if (speeds == Speeds::kAny && slowing_) {
     law = slowed(law, *slowing_);
@@ -161,16 +165,16 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
       }
     }
   }
-  if (!fastest) return result;
-  const auto cut = [](I& size, const I& most) {
-    if (most.upper() < size.upper()) size = hull(I(size.lower()), I(most.upper()));
+  if (!most) return result;
+  const auto cut = [](I& size, const I& other) {
+    if (other.upper() < size.upper()) size = hull(I(size.lower()), I(other.upper()));
   };
-  for (std::size_t i = 0; i < kCables; ++i) cut(result.winch_speed[i], fastest->winch[i]);
+  for (std::size_t i = 0; i < kCables; ++i) cut(result.winch_speed[i], most->winch[i]);
   for (RateMargin<I>& margin : result.margins) {
     switch (margin.id.kind) {
-      case RateKind::kWinchSpeed: cut(margin.size, fastest->winch[static_cast<std::size_t>(margin.id.cable)]); break;
-      case RateKind::kLoadSpeed: cut(margin.size, fastest->load); break;
-      case RateKind::kLoadAngularSpeed: cut(margin.size, fastest->spin); break;
+      case RateKind::kWinchSpeed: cut(margin.size, most->winch[static_cast<std::size_t>(margin.id.cable)]); break;
+      case RateKind::kLoadSpeed: cut(margin.size, most->load); break;
+      case RateKind::kLoadAngularSpeed: cut(margin.size, most->spin); break;
       default: continue;
     }
     const auto limit = std::ranges::find(limits_, margin.id, &Limit::id);

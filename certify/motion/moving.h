@@ -86,8 +86,10 @@ class MovingModel {
     std::array<I, kCables> winch;
     I load, spin;
   };
+  /// @param middle  in the middle of the times of the box
   [[nodiscard]] std::optional<Fastest> fastest(const Model<I>& model, const Segment& segment, const I& range,
-                                               const PathRates<I>& path, const LawRange<I>& law) const;
+                                               const PathRates<I>& path, const LawRange<I>& law,
+                                               const LawInstant<I>& middle) const;
 
   PathRatesModel<I> rates_;
   std::vector<MovingBody<I>> bodies_;

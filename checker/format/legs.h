@@ -37,7 +37,8 @@ struct LegsCertificate {
 [[nodiscard]] std::vector<std::string_view> leg_texts(const Outline& outline);
 
 /// Checks all rules of form of the whole and of each leg: 2 to 64 legs, each a planned path in a space without
-/// constraints, all of moves or none of them where they are proved; the verdict that follows from theirs.
+/// constraints; the verdict that follows from theirs. That all proved legs are moves, or none is, follows from one
+/// problem for all (checker/legs.h), since a proved path has a law where its problem limits moves, and nowhere else.
 /// @param outline  its text must outlive the certificate, which refers to it.
 /// @throws Malformed naming the key.
 [[nodiscard]] LegsCertificate read_legs(const Outline& outline);

@@ -114,8 +114,8 @@ Bounds prove_box(const Machine& machine, const Problem& problem, const Path& pat
     loss = loss_to_deviations(at, nullptr);
     result = bounds_at(at, nullptr, loss);
   } else {
-    for (const Speed& speed : extreme_speeds(problem, path, k, box)) {
-      const InTime move = in_time(machine, moving(machine, problem, path, k, box, speed));
+    for (Moving& at_corner : moving_at_extremes(machine, problem, path, k, box)) {
+      const InTime move = in_time(machine, std::move(at_corner));
       loss = loss_to_deviations(at, &move);
       const Bounds here = bounds_at(at, &move, loss);
       if (!result) result = here;

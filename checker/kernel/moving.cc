@@ -68,10 +68,15 @@ struct Times {
   static mpq_class at(const Polynomial& p, const mpq_class& u) { return p[0] + u * (p[1] + u * (p[2] + u * p[3])); }
 };
 
-/// σ' and σ'' over all times at which σ is in [a, b].
-Speed law_range(const TimeLaw& text, const mpq_class& a, const mpq_class& b) {
-  const PiecewiseLaw law(text);
-  const Times times(law, a, b);
+/// How fast z changes over a box.
+struct Speed {
+  Ball rate;          ///< ż [1/s]
+  Ball acceleration;  ///< z̈ [1/s^2]
+  Ball fastest;       ///< the greatest ż that the move may have there
+};
+
+/// σ' and σ'' over those times.
+Speed law_range(const PiecewiseLaw& law, const Times& times, const Ball& step) {
   Speed result;
   for (std::size_t k = times.first; k <= times.last; ++k) {
     Box part;
@@ -86,7 +91,6 @@ Speed law_range(const TimeLaw& text, const mpq_class& a, const mpq_class& b) {
       result = {hull(result.rate, rate), hull(result.acceleration, acceleration), {}};
     }
   }
-  const Ball step(text.step_s);
   const Ball rate = result.rate / step;
   return {rate, result.acceleration / sqr(step), rate};
 }
@@ -99,16 +103,15 @@ struct Instant {
 };
 
 /// The middle of those times, unless σ is not in [a, b] then.
-std::optional<Instant> middle_instant(const TimeLaw& text, const mpq_class& a, const mpq_class& b) {
-  const PiecewiseLaw law(text);
-  const Times times(law, a, b);
+std::optional<Instant> middle_of(const PiecewiseLaw& law, const Times& times, const mpq_class& step, const mpq_class& a,
+                                 const mpq_class& b) {
   const mpq_class from = times.u1 + times.first, to = times.u2 + times.last, middle = (from + to) / 2;
   const mpz_class whole = middle.get_num() / middle.get_den();
   const std::size_t k = std::min<std::size_t>(whole.get_ui(), law.pieces() - 1);
   const Polynomial p = law.piece(k);
   Box here;
   here.begin = here.end = middle - k;
-  const mpq_class place = Times::at(p, here.begin), step(text.step_s), reach = (to - from) / 2 * step;
+  const mpq_class place = Times::at(p, here.begin), reach = (to - from) / 2 * step;
   if (place < a || place > b) return std::nullopt;
   return Instant{place, form(over(derivative(p), here)).range() / Ball(step), Ball(reach)};
 }
@@ -278,42 +281,53 @@ Ball magnitude_within(const Vector3<Ball>& v0, const Vector3<Ball>& v, const Vec
   return highest(sqrt(highest(squared_norm(v0) + plus_minus(magnitude(change)))));
 }
 
+bool limits_a_speed(const TimeLimits& limits) {
+  const auto is_stated = [](const auto& limit) { return limit.has_value(); };
+  return limits.load_speed || limits.load_angular_speed || std::ranges::any_of(limits.winch_speed, is_stated) ||
+         std::ranges::any_of(limits.winch_power, is_stated);
+}
+
 /// By the speeds in the middle of a box, and the accelerations of the law all over it.
-std::optional<Fastest> fastest(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                               const Box& box, const FrameJet& frame) {
-  const std::optional<Instant> middle = middle_instant(*path.timing, k + box.begin, k + box.end);
-  if (!middle) return std::nullopt;
+Fastest fastest(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Instant& middle,
+                const Rates& all) {
   Box at;
-  at.begin = at.end = middle->place - k;
-  const Rates here(frame_over(problem, path, k, at), {middle->rate, Ball(), middle->rate});
-  const Rates all(frame, speed_by_law(problem, path, k, box));
+  at.begin = at.end = middle.place - k;
+  const Rates here(frame_over(problem, path, k, at), {middle.rate, Ball(), middle.rate});
   Fastest result;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const Ball change = middle->reach * all.acceleration(length(machine, all, i));
+    const Ball change = middle.reach * all.acceleration(length(machine, all, i));
     result.winch[i] = magnitude(here.speed(length(machine, here, i)) + plus_minus(magnitude(change)));
   }
   const Vector3<SecondJet> load = all.point(machine.load_point);
   result.load = magnitude_within(here.velocity(here.point(machine.load_point)), all.velocity(load),
-                                 all.acceleration(load), middle->reach);
-  result.spin = magnitude_within(here.spin, all.spin, all.spin_change, middle->reach);
+                                 all.acceleration(load), middle.reach);
+  result.spin = magnitude_within(here.spin, all.spin, all.spin_change, middle.reach);
   return result;
 }
 
-}  // namespace
+/// All that the speeds at which a move may be run on a box have in common.
+struct OnBox {
+  FrameJet frame;
+  Speed law;
+  std::optional<Fastest> most;
 
-Ball rate_limit(const Problem& problem, RateKind kind, std::size_t cable) {
-  return problem.time.value().of(kind, cable).value().evaluate<MeanValueForm>({}).range();
-}
-
-Speed speed_by_law(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
-  if (!path.timing || !problem.time || has_poses(path.law) || !problem.constraints.empty()) {
-    throw std::logic_error("a move whose rates are not known");
+  OnBox(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box)
+      : frame(frame_over(problem, path, k, box)) {
+    if (!path.timing || !problem.time || has_poses(path.law) || !problem.constraints.empty()) {
+      throw std::logic_error("a move whose rates are not known");
+    }
+    const PiecewiseLaw pieces(*path.timing);
+    const mpq_class step(path.timing->step_s), begin = k + box.begin, end = k + box.end;
+    const Times times(pieces, begin, end);
+    law = law_range(pieces, times, Ball(step));
+    if (!limits_a_speed(*problem.time)) return;
+    const std::optional<Instant> middle = middle_of(pieces, times, step, begin, end);
+    if (middle) most = fastest(machine, problem, path, k, *middle, Rates(frame, law));
   }
-  return law_range(*path.timing, k + box.begin, k + box.end);
-}
+};
 
-std::vector<Speed> extreme_speeds(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
-  const Speed law = speed_by_law(problem, path, k, box);
+/// The corners of all speeds at which the move may be run.
+std::vector<Speed> extreme_speeds(const Problem& problem, const Speed& law) {
   if (!problem.time->stopping_time) return {law};
   const Ball fastest = magnitude(law.rate);
   const Ball by_slowing = magnitude(fastest / problem.time->stopping_time->evaluate<MeanValueForm>({}).range());
@@ -326,16 +340,14 @@ std::vector<Speed> extreme_speeds(const Problem& problem, const Path& path, std:
   return corners;
 }
 
-Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
-              const Speed& speed) {
-  const FrameJet frame = frame_over(problem, path, k, box);
-  const Rates rates(frame, speed);
+Moving at_speed(const Machine& machine, const Problem& problem, const OnBox& on_box, const Speed& speed) {
+  const std::optional<Fastest>& most = on_box.most;
+  const Rates rates(on_box.frame, speed);
   Moving result;
   for (const LoadItem& item : problem.items) {
     if (const auto* weight = std::get_if<Weight>(&item.set)) add_weight(*weight, item, machine, rates, result);
   }
 
-  const std::optional<Fastest> most = fastest(machine, problem, path, k, box, frame);
   const auto size = [](const Ball& x) { return hull(least_magnitude(x), magnitude(x)); };
   const auto no_more = [&](const Ball& x, const Ball& than) {
     return certainly_positive(highest(x) - than) ? hull(lowest(x), than) : x;
@@ -359,6 +371,27 @@ Moving moving(const Machine& machine, const Problem& problem, const Path& path, 
   add(RateKind::kLoadAcceleration, 0, [&] { return length_range(rates.acceleration(load_point)); });
   add(RateKind::kLoadAngularSpeed, 0, [&] { return no_more_than(length_range(rates.spin), &Fastest::spin); });
   add(RateKind::kLoadAngularAcceleration, 0, [&] { return length_range(rates.spin_change); });
+  return result;
+}
+
+}  // namespace
+
+Ball rate_limit(const Problem& problem, RateKind kind, std::size_t cable) {
+  return problem.time.value().of(kind, cable).value().evaluate<MeanValueForm>({}).range();
+}
+
+Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box) {
+  const OnBox on_box(machine, problem, path, k, box);
+  return at_speed(machine, problem, on_box, on_box.law);
+}
+
+std::vector<Moving> moving_at_extremes(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
+                                       const Box& box) {
+  const OnBox on_box(machine, problem, path, k, box);
+  std::vector<Moving> result;
+  for (const Speed& speed : extreme_speeds(problem, on_box.law)) {
+    result.push_back(at_speed(machine, problem, on_box, speed));
+  }
   return result;
 }
 

@@ -43,13 +43,6 @@ struct RateMargin {
   Ball value;             ///< the limit less that
 };
 
-/// How fast z changes over a box.
-struct Speed {
-  Ball rate;          ///< ż [1/s]
-  Ball acceleration;  ///< z̈ [1/s^2]
-  Ball fastest;       ///< the greatest ż that the move may have there
-};
-
 struct Moving {
   Vector6<Ball> inertia;            ///< w_in of the commanded motion [N, N m]
   Vector6<Ball> change_by_turn;     ///< bounds of how much a turn by t <= 1 may change it, over t
@@ -74,13 +67,11 @@ void require_time_law(const Problem& problem, const Path& path);
 
 /// Over a box of segment k, at every time at which the move is there, run as its law says. @throws Undefined where that
 /// is not proved. @pre require_time_law(), and the problem has limits in time
-[[nodiscard]] Speed speed_by_law(const Problem& problem, const Path& path, std::size_t k, const Box& box);
-/// The corners of all speeds at which the move may be run there; speed_by_law() where the problem states no stopping
-/// time.
-[[nodiscard]] std::vector<Speed> extreme_speeds(const Problem& problem, const Path& path, std::size_t k,
-                                                const Box& box);
-/// What holds at such a speed, with the conditions of speed_by_law().
 [[nodiscard]] Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                            const Box& box, const Speed& speed);
+                            const Box& box);
+/// Likewise at the corners of all speeds at which the move may be run there: what keeps its limits at each of them
+/// keeps them. moving() alone where the problem states no stopping time.
+[[nodiscard]] std::vector<Moving> moving_at_extremes(const Machine& machine, const Problem& problem, const Path& path,
+                                                     std::size_t k, const Box& box);
 
 }  // namespace taut::checker

@@ -117,7 +117,8 @@ TYPED_TEST(InTime, LawsAreEnclosedWhereverTheyAre) {
     const TimeLaw law = some_law(random, segments, trial % 2 == 0);
     const double t1 = share(random) * law.duration_s(), t2 = t1 + share(random) * 0.1 * (law.duration_s() - t1);
     LawRange<I> range;
-    EXPECT_TRUE(TypeParam::run([&] { range = law_range(law, I(at_time(law, t1).s, at_time(law, t2).s)); }));
+    EXPECT_TRUE(
+        TypeParam::run([&] { range = law_range<I>(law, time_cover(law, I(at_time(law, t1).s, at_time(law, t2).s))); }));
     const auto is_in = [](const I& x, double value) {
       const double slack = 1e-12 * (1 + std::abs(value));  // of the sample
       return lower_bound(x) <= value + slack && value - slack <= upper_bound(x);

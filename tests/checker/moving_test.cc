@@ -111,8 +111,7 @@ TEST(KernelMoving, InertiaAndRatesAreThoseOfParticles) {
     const Path path = to_kernel(random.path);
     const WorkingPrecision precision(random.box.bits);
     const Machine machine(problem);
-    const Moving said =
-        moving(machine, problem, path, random.k, random.box, speed_by_law(problem, path, random.k, random.box));
+    const Moving said = moving(machine, problem, path, random.k, random.box);
     const oracle::Move move = testing::oracle_of(random.path);
     for (const double u : {-1.0, 1.0, operands.uniform(-1, 1)}) {
       const BigFloat t = random.time(u);
