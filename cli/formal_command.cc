@@ -180,12 +180,17 @@ void add_formal_options(CLI::App& command, FormalArguments& arguments) {
   command.add_flag("--fast", arguments.fast,
                    "let Coq compute with the processor's floating point, which it then trusts: 0.2 s, not 8 s");
   command.add_flag("--no-coq", arguments.no_coq, "write the file, and do not run coqc");
+  command.add_option("--boxes", arguments.boxes, "also write the boxes alone, which taut-verify reads (formal/build)");
   command.add_option("--library", arguments.library, "folder with the compiled checker in Coq (formal/build)");
   add_max_seconds_option(command, arguments.max_seconds);
 }
 
 int run_formal(const FormalArguments& arguments) {
   const fs::path file = target(arguments);
+  if (!arguments.boxes.empty()) {
+    require_another(arguments.boxes, arguments.certificate_path);
+    require_another(arguments.boxes, file);
+  }
   const Interruption interruption;
   const std::string bytes = read_whole(arguments.certificate_path);
   const Certificate certificate = read_proved(bytes, arguments.certificate_path);
@@ -217,7 +222,9 @@ int run_formal(const FormalArguments& arguments) {
   for (const auto& segment : *boxes) count += segment.size();
   const std::string text = formal::coq_file(certificate, checked.sha256, *boxes,
                                             arguments.fast ? formal::Instance::kFast : formal::Instance::kExact);
-  write_whole({{file, text}});
+  std::vector<FileContent> files = {{file, text}};
+  if (!arguments.boxes.empty()) files.push_back({arguments.boxes, formal::boxes_file(*boxes)});
+  write_whole(files);
   fmt::print("{}\nWritten: {} ({} boxes)\n", sentence(checked), sanitize(file.string()), count);
   std::fflush(stdout);
   return arguments.no_coq ? kProvedExit : run_coq(certificate, file, text, arguments, interruption.token());

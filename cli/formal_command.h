@@ -12,6 +12,7 @@ namespace taut {
 struct FormalArguments {
   std::string certificate_path;
   std::string out;      ///< empty: beside the certificate, with its name and .v
+  std::string boxes;    ///< file for taut-verify; empty: none
   std::string library;  ///< folder of formal/build's results; empty: where taut was built or installed
   double max_seconds = kCheckSeconds;
   bool fast = false;

@@ -129,23 +129,93 @@ Definition units : six (six Z) :=
   (Six (Six 1 0 0 0 0 0) (Six 0 1 0 0 0 0) (Six 0 0 1 0 0 0)
        (Six 0 0 0 1 0 0) (Six 0 0 0 0 1 0) (Six 0 0 0 0 0 1))%Z.
 
-(** ** The load: only ellipsoids whose matrix is diagonal, with a positive diagonal *)
+(** ** The load: of ellipsoids, only those whose matrix is diagonal, with a positive diagonal
+
+    What an item makes of a row y is a form, of one of its wrenches, and a range of what others add to that. *)
 
 Definition diagonal (shape : six (six Q)) : six Q :=
   Six (at1 (at1 shape)) (at2 (at2 shape)) (at3 (at3 shape)) (at4 (at4 shape)) (at5 (at5 shape)) (at6 (at6 shape)).
 Definition is_diagonal (shape : six (six Q)) : bool :=
   every (zip6 (fun row unit => every (zip6 (fun e d =>
     if Z.eqb d 0 then Qeq_bool e 0 else Z.ltb 0 (Qnum e)) row unit)) shape units).
-Definition in_scope (l : list item) : bool := forallb (fun '(Ellipsoid _ shape) => is_diagonal shape) l.
+Definition in_scope (l : list item) : bool :=
+  forallb (fun i => match i with Ellipsoid _ shape => is_diagonal shape | _ => true end) l.
 
 Definition symmetric (x : interval) : interval := I.join (I.neg x) x.
-Definition item_range (c : six interval) (i : item) : interval :=
-  let '(Ellipsoid center shape) := i in
-  let middle := sum (zip6 (fun c q => mul c (fraction q)) c center) in
-  let square := sum (zip6 (fun c q => div (I.sqr prec c) (fraction q)) c (diagonal shape)) in
-  add middle (symmetric (I.sqrt prec square)).
-Definition load_range (l : list item) (c : six interval) : interval :=
-  fold_right (fun i t => add (item_range c i) t) zero l.
+Definition range (f : form) : interval := over (tight f).
+Definition size (v : vec form) : interval :=
+  I.sqrt prec (add (add (I.sqr prec (range (vx v))) (I.sqr prec (range (vy v)))) (I.sqr prec (range (vz v)))).
+Definition v_dot u v := f_add (f_add (f_mul (vx u) (vx v)) (f_mul (vy u) (vy v))) (f_mul (vz u) (vz v)).
+
+Definition part : Type := form * interval.
+Definition only (x : interval) : part := (constant zero, x).
+
+Definition ellipsoid_part (c : six interval) (center : six Q) (shape : six (six Q)) : part :=
+  (constant (sum (zip6 (fun c q => mul c (fraction q)) c center)),
+   symmetric (I.sqrt prec (sum (zip6 (fun c q => div (I.sqr prec c) (fraction q)) c (diagonal shape))))).
+
+(** Of numbers from [lower] to [upper] times what f encloses. *)
+Definition middle (lower upper : Q) : interval := fraction ((lower + upper) * (1 # 2)).
+Definition half_range (lower upper : Q) : interval := fraction ((upper - lower) * (1 # 2)).
+Definition multiples (lower upper : Q) (f : form) : part :=
+  (f_mul (constant (middle lower upper)) f, mul (half_range lower upper) (I.abs (range f))).
+
+(** h.v for all v of a set. *)
+Definition vectors_part (set : vectors) (h : vec form) : part :=
+  match set with
+  | Ball radius => only (symmetric (mul (fraction radius) (size h)))
+  | Disc radius normal =>
+      let n := v_rational normal in only (symmetric (div (mul (fraction radius) (size (v_cross n h))) (size n)))
+  | Along direction lower upper =>
+      let e := v_rational direction in
+      let p := multiples lower upper (f_div (v_dot h e) (constant (size e))) in
+      (fst p, symmetric (snd p))
+  end.
+
+Section Load.
+
+Variables (R : vec (vec form)) (m : machine).
+
+Definition arm_form (point : vec Q) : vec form := v_tight (turned R (v_rational_difference point (load_point m))).
+Definition row_form (c : six interval) : vec form * vec form :=
+  (Vec (constant (at1 c)) (constant (at2 c)) (constant (at3 c)),
+   Vec (constant (at4 c)) (constant (at5 c)) (constant (at6 c))).
+Definition covector_form (y : vec form * vec form) (r : vec form) : vec form := v_add (fst y) (v_cross (snd y) r).
+Definition seen_form (a : axes) (h : vec form) : vec form :=
+  match a with OfWorld => h | OfPlatform => Vec (v_dot (vx R) h) (v_dot (vy R) h) (v_dot (vz R) h) end.
+
+Definition weight_part (y : vec form * vec form) (lower upper : Q) (gravity point : vec Q) (tolerance : Q) : part :=
+  let g := v_rational gravity in
+  let p := multiples lower upper (v_dot (covector_form y (arm_form point)) g) in
+  let most := add (I.abs (middle lower upper)) (half_range lower upper) in
+  (fst p, symmetric (add (snd p) (mul most (mul (fraction tolerance) (size (v_cross g (snd y))))))).
+
+Definition q_minus (u v : vec Q) : vec Q := (Vec (vx u - vx v) (vy u - vy v) (vz u - vz v))%Q.
+Definition case_form (h k : vec form) (w : vec Q * vec Q) : form :=
+  f_add (v_dot h (v_rational (fst w))) (v_dot k (v_rational (snd w))).
+Fixpoint hull (f : vec Q * vec Q -> interval) (l : list (vec Q * vec Q)) : interval :=
+  match l with [] => I.nai | [w] => f w | w :: l => I.join (f w) (hull f l) end.
+Definition cases_part (h k : vec form) (l : list (vec Q * vec Q)) : part :=
+  match l with
+  | [] => only I.nai
+  | u :: _ => (case_form h k u,
+               hull (fun w => range (case_form h k (q_minus (fst w) (fst u), q_minus (snd w) (snd u)))) l)
+  end.
+
+Definition item_part (c : six interval) (i : item) : part :=
+  let y := row_form c in
+  match i with
+  | Ellipsoid center shape => ellipsoid_part c center shape
+  | Weight lower upper gravity point tolerance => weight_part y lower upper gravity point tolerance
+  | Force set a point => vectors_part set (seen_form a (covector_form y (arm_form point)))
+  | Moment set a => vectors_part set (seen_form a (snd y))
+  | LoadCases cases a point =>
+      cases_part (seen_form a (covector_form y (arm_form point))) (seen_form a (snd y)) cases
+  end.
+Definition load_part (c : six interval) (l : list item) : part :=
+  fold_right (fun i t => let p := item_part c i in (f_add (fst p) (fst t), add (snd p) (snd t))) (only zero) l.
+
+End Load.
 
 (** ** A box *)
 
@@ -156,20 +226,20 @@ Definition strictly (limits : Q * Q) (margin : Q) (x : interval) : bool :=
 Definition column_form (R : vec (vec form)) (P : vec form) (m : machine) (c : cable) : six form :=
   let u := v_rational (platform c) in
   let d := v_tight (v_sub (v_add P (turned R u)) (v_rational (base c))) in
-  let r := v_tight (turned R (v_rational_difference (platform c) (load_point m))) in
-  let k := v_cross r d in
+  let k := v_cross (arm_form R m (platform c)) d in
   Six (vx d) (vy d) (vz d) (vx k) (vy k) (vz k).
-Definition length_range (d : six form) : interval :=
-  I.sqrt prec (add (add (I.sqr prec (over (at1 d))) (I.sqr prec (over (at2 d)))) (I.sqr prec (over (at3 d)))).
+Definition length_range (d : six form) : interval := size (Vec (at1 d) (at2 d) (at3 d)).
 
 (** C D, its difference from the unit matrix, and what C makes of what is left of the load. *)
 Definition product (C : six (six interval)) (columns : six (six form)) : six (six form) :=
   map6 (fun c => map6 (fun d => f_sum (zip6 (fun a e => f_mul (constant a) e) c d)) columns) C.
 Definition error_ranges (CD : six (six form)) : six (six interval) :=
   zip6 (fun row unit => zip6 (fun e z => over (tight (f_sub (constant (integer z)) e))) row unit) CD units.
-Definition rest_ranges (l : list item) (C : six (six interval)) (CD : six (six form)) (x0 : six interval) : six interval :=
-  zip6 (fun c row => sub (load_range l c)
-    (over (tight (f_sum (zip6 (fun e x => f_mul e (constant x)) row x0))))) C CD.
+Definition rest_ranges (R : vec (vec form)) (m : machine) (C : six (six interval)) (CD : six (six form))
+    (x0 : six interval) : six interval :=
+  zip6 (fun c row =>
+    let p := load_part R m c (load m) in
+    add (range (f_sub (fst p) (f_sum (zip6 (fun e x => f_mul e (constant x)) row x0)))) (snd p)) C CD.
 
 Definition refine (W : six interval) (E : six (six interval)) (Y : six interval) : six interval :=
   zip6 (fun w row => add w (sum (zip6 mul row Y))) W E.
@@ -195,11 +265,11 @@ Definition check_pose (m : machine) (tension_margin length_margin : Q) (b : box)
   let x0 := map6 (number (scale b)) (densities b) in
   let CD := product C columns in
   decide m tension_margin length_margin (map6 length_range columns) x0 (error_ranges CD)
-    (rest_ranges (load m) C CD x0).
+    (rest_ranges R m C CD x0).
 
 End Precision.
 
-Definition between (prec : F.precision) (l r : Q) : interval := I.join (fraction prec l) (fraction prec r).
+Definition from_to (prec : F.precision) (l r : Q) : interval := I.join (fraction prec l) (fraction prec r).
 
 Definition parameter (prec : F.precision) (v w : waypoint) (m : interval) (S : interval) (i : nat) : form :=
   let point u := let (q, h) := nth i u (0%Q, 0%Z) in
@@ -211,7 +281,7 @@ Definition parameter (prec : F.precision) (v w : waypoint) (m : interval) (S : i
 Definition check_box (prec : F.precision) (c : certificate) (v w : waypoint) (start : Q) (b : box) : bool :=
   let middle := Qred ((start + upto b) * (1 # 2)) in
   let m := fraction prec middle in
-  let S := between prec start (upto b) in
+  let S := from_to prec start (upto b) in
   Qle_bool start (upto b) &&
   check_pose prec (sub prec (I.join S m) m) (subject c) (tension_margin c) (length_margin c) b
     (parameter prec v w m (I.join S m)).

@@ -27,7 +27,7 @@ Section Pose.
 
 Variables (m : machine) (P : pose).
 
-Definition lever (c : cable) : vec R := turn P (minus (real_vec (platform c)) (real_vec (load_point m))).
+Definition lever (c : cable) : vec R := arm m P (real_vec (platform c)).
 Definition density_column (c : cable) : six R :=
   let d := cable_vector P c in
   let k := cross (lever c) d in
@@ -42,7 +42,7 @@ Definition rest (C : nat -> nat -> R) (x0 : nat -> R) (w : wrench) (i : nat) : R
 Lemma column_part c t :
   six_of (wrench_times t (column m P c)) = map6 (fun e => e * (t / cable_length P c)) (density_column c).
 Proof.
-  unfold column, density_column. fold (lever c).
+  unfold column, force_at, density_column. fold (lever c).
   generalize (cable_vector P c) (cable_length P c) (lever c). intros [a b e] L [x y z].
   cbv [six_of wrench_times times force moment vx vy vz cross map6 at1 at2 at3 at4 at5 at6]. unfold Rdiv. f_equal; ring.
 Qed.
@@ -64,7 +64,7 @@ Theorem pose_is_feasible tension_margin length_margin (C : nat -> nat -> R) (x0 
   (forall i, (i < 6)%nat -> 0 < length_of i) ->
   (forall i, (i < 6)%nat -> total (fun j => Rabs (error6 C densities_matrix i j)) <= rho) -> rho < 1 ->
   (forall i, (i < 6)%nat -> inside (length (nth6 (cables m) i)) length_margin (length_of i)) ->
-  (forall w, in_load (load m) w -> exists M, (forall i, (i < 6)%nat -> Rabs (rest C x0 w i) <= M) /\
+  (forall w, in_load m P w -> exists M, (forall i, (i < 6)%nat -> Rabs (rest C x0 w i) <= M) /\
     forall y, (forall i, (i < 6)%nat -> Rabs (y i) * (1 - rho) <= M) ->
     (forall i, (i < 6)%nat -> y i = rest C x0 w i + total (fun j => error6 C densities_matrix i j * y j)) ->
     forall i, (i < 6)%nat -> inside (tension (nth6 (cables m) i)) tension_margin (length_of i * (x0 i + y i))) ->

@@ -5,7 +5,7 @@ From Coq Require Import Reals QArith Qreals ZArith Lra Lia Bool List.
 From Flocq Require Import Zaux.
 From Interval Require Import Float.Specific_sig Interval.Interval Interval.Float_full Real.Xreal.
 From Interval Require Import Float.Basic Float.Sig.
-From Taut Require Import Statement Certificate Lemmas Checker Enclosure Machine.
+From Taut Require Import Statement Certificate Lemmas Loads Checker Enclosure Machine.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -161,9 +161,10 @@ Qed.
 (** c.w, coordinate by coordinate. *)
 Definition along_six (c : nat -> R) (w : six R) : R := total (fun k => c k * nth6 w k).
 
-Lemma item_is_in c cI center shape w : (forall k, (k < 6)%nat -> is_in (c k) (nth6 cI k)) ->
-  is_diagonal shape = true -> in_item (Ellipsoid center shape) w ->
-  is_in (along_six c (six_of w)) (item_range prec cI (Ellipsoid center shape)).
+Lemma ellipsoid_is_in m P c cI center shape w : (forall k, (k < 6)%nat -> is_in (c k) (nth6 cI k)) ->
+  is_diagonal shape = true -> in_item m P (Ellipsoid center shape) w ->
+  is_in (along_six c (map6 Q2R center)) (mid (fst (ellipsoid_part prec cI center shape))) /\
+  is_in (along_six c (six_of w) - along_six c (map6 Q2R center)) (snd (ellipsoid_part prec cI center shape)).
 Proof.
   intros hc diag h.
   set (z := fun k => nth6 (six_of w) k - Q2R (nth6 center k)).
@@ -182,30 +183,16 @@ Proof.
       unfold l, Lemmas.form, Lemmas.total, e, z, diagonal. cbn [fold_right nth6 at1 at2 at3 at4 at5 at6].
       eapply Rle_trans; [| exact h]. apply Req_le. ring. }
   destruct hl as [hp hf]. assert (a := range_of_ellipsoid l hp hf).
-  replace (along_six c (six_of w)) with (along_six c (map6 Q2R center) + linear l).
-  - unfold item_range. apply add_is_in.
-    + apply sum_is_in. intros k lk. rewrite nth6_zip, nth6_map. apply mul_is_in; [now apply hc | apply fraction_is_in].
+  split; cbn [ellipsoid_part fst snd mid constant].
+  - apply sum_is_in. intros k lk. rewrite nth6_zip, nth6_map. apply mul_is_in; [now apply hc | apply fraction_is_in].
+  - replace (along_six c (six_of w) - along_six c (map6 Q2R center)) with (linear l).
     + apply (symmetric_is_in (sqrt (spread l))); [| exact a]. apply sqrt_is_in.
       replace (spread l) with (total (fun k => c k * c k / e k)).
       * apply sum_is_in. intros k lk. rewrite nth6_zip. apply div_is_in; [now apply sqr_is_in, hc | apply fraction_is_in].
       * unfold l, spread, Lemmas.total, SixEquations.total. cbn [fold_right]. ring.
-  - unfold along_six, l, linear, Lemmas.total, SixEquations.total, z. cbn [fold_right]. rewrite !nth6_map. ring.
+    + unfold along_six, l, linear, Lemmas.total, SixEquations.total, z. cbn [fold_right]. rewrite !nth6_map. ring.
 Qed.
 
-Lemma load_is_in c cI l : (forall k, (k < 6)%nat -> is_in (c k) (nth6 cI k)) -> in_scope l = true ->
-  forall w, in_load l w -> is_in (along_six c (six_of w)) (load_range prec l cI).
-Proof.
-  intros hc. induction l as [| i l IH]; intros scope w h; cbn [in_load load_range fold_right] in *.
-  - rewrite h. unfold load_range. cbn [fold_right].
-    replace (along_six c _) with 0; [apply (integer_is_in prec 0) |].
-    unfold along_six, SixEquations.total. cbn. ring.
-  - destruct h as [a [b [eq [ha hb]]]]. rewrite eq.
-    unfold in_scope in scope. cbn [forallb] in scope. rewrite andb_true_iff in scope. destruct scope as [s1 s2].
-    replace (along_six c (six_of (wrench_plus a b))) with (along_six c (six_of a) + along_six c (six_of b)).
-    + unfold load_range. cbn [fold_right]. apply add_is_in; [| now apply IH].
-      destruct i. now apply item_is_in.
-    + unfold along_six, SixEquations.total. rewrite six_of_plus, !nth6_zip. ring.
-Qed.
 
 (** ** Poses *)
 
@@ -276,15 +263,11 @@ Definition turn_of (a : angles) (v : expr -> R) (u : vec R) : vec R :=
   | Zyz alpha beta gamma => rot_z (v alpha) (rot_y (v beta) (rot_z (v gamma) u))
   end.
 
-Definition axis_x : vec R := Vec 1 0 0.
-Definition axis_y : vec R := Vec 0 1 0.
-Definition axis_z : vec R := Vec 0 0 1.
-
 Lemma turn_is_linear a v u : turn_of a v u =
-  plus (plus (times (vx u) (turn_of a v axis_x)) (times (vy u) (turn_of a v axis_y))) (times (vz u) (turn_of a v axis_z)).
+  plus (plus (times (vx u) (turn_of a v unit_x)) (times (vy u) (turn_of a v unit_y))) (times (vz u) (turn_of a v unit_z)).
 Proof.
   destruct u as [x y z], a; cbn [turn_of];
-    unfold rot_z, rot_y, rot_x, plus, times, axis_x, axis_y, axis_z; cbn [vx vy vz]; f_equal; ring.
+    unfold rot_z, rot_y, rot_x, plus, times, unit_x, unit_y, unit_z; cbn [vx vy vz]; f_equal; ring.
 Qed.
 
 Variables (p : nat -> form) (v v' : nat -> R).
@@ -299,9 +282,9 @@ Lemma zero_encloses : enc (constant prec (zero prec)) 0 0.
 Proof. apply constant_encloses, (integer_is_in prec 0). Qed.
 
 Lemma rotation_encloses a :
-  v_encloses (vx (rotation prec a p)) (turn_of a (value v) axis_x) (turn_of a (value v') axis_x) /\
-  v_encloses (vy (rotation prec a p)) (turn_of a (value v) axis_y) (turn_of a (value v') axis_y) /\
-  v_encloses (vz (rotation prec a p)) (turn_of a (value v) axis_z) (turn_of a (value v') axis_z).
+  v_encloses (vx (rotation prec a p)) (turn_of a (value v) unit_x) (turn_of a (value v') unit_x) /\
+  v_encloses (vy (rotation prec a p)) (turn_of a (value v) unit_y) (turn_of a (value v') unit_y) /\
+  v_encloses (vz (rotation prec a p)) (turn_of a (value v) unit_z) (turn_of a (value v') unit_z).
 Proof.
   assert (one_enc := one_encloses). assert (zero_enc := zero_encloses).
   destruct a; cbn [rotation turn_of vx vy vz]; (split; [| split]);
@@ -327,6 +310,256 @@ Let position_form :=
 Lemma position_encloses : v_encloses position_form (position at_m) (position at_s).
 Proof. split; [| split]; apply value_encloses. Qed.
 
+(** ** The load at a pose *)
+
+Lemma range_is_in f q q' : enc f q q' -> is_in q' (range prec offset f).
+Proof. intros h. apply (tight_encloses prec t offset f q q' zero_in t_in) in h. apply h. Qed.
+
+Lemma size_is_in V u u' : v_encloses V u u' -> is_in (norm u') (size prec offset V).
+Proof.
+  intros [a [b c]]. unfold size, norm, dot. apply sqrt_is_in.
+  repeat apply add_is_in; apply sqr_is_in; eapply range_is_in; eassumption.
+Qed.
+
+Lemma v_dot_encloses V W u u' w w' : v_encloses V u u' -> v_encloses W w w' ->
+  enc (v_dot prec V W) (dot u w) (dot u' w').
+Proof. intros [a [b c]] [d [e f]]. unfold v_dot, dot. by_parts. Qed.
+
+Lemma arm_encloses point :
+  v_encloses (arm_form prec offset rotation_form m point) (arm m at_m (real_vec point)) (arm m at_s (real_vec point)).
+Proof.
+  apply v_tight_encloses. unfold arm. apply (turned_encloses (pose_angles m)).
+  apply v_sub_encloses; apply v_rational_encloses.
+Qed.
+
+Lemma covector_encloses Y y r r' V : v_encloses (fst Y) (fst y) (fst y) -> v_encloses (snd Y) (snd y) (snd y) ->
+  v_encloses V r r' -> v_encloses (covector_form prec Y V) (covector y r) (covector y r').
+Proof. intros a b c. unfold covector_form, covector. apply v_add_encloses; [exact a |]. now apply v_cross_encloses. Qed.
+
+Lemma seen_encloses a H h h' : v_encloses H h h' ->
+  v_encloses (seen_form prec rotation_form a H) (seen_from a (turn at_m) h) (seen_from a (turn at_s) h').
+Proof.
+  intros e. destruct a; [exact e |]. destruct (rotation_encloses (pose_angles m)) as [x [y z]].
+  split; [| split]; (apply v_dot_encloses; [assumption | exact e]).
+Qed.
+
+Lemma turn_keeps_dot a f u w : dot (turn_of a f u) (turn_of a f w) = dot u w.
+Proof.
+  assert (unit : forall q, cos q * cos q = 1 - sin q * sin q) by (intros q; assert (h := sin2_cos2 q); unfold Rsqr in h; lra).
+  assert (X : forall q v1 v2, dot (rot_x q v1) (rot_x q v2) = dot v1 v2).
+  { intros q [x y z] [x' y' z']. unfold dot, rot_x. cbn [vx vy vz]. assert (e := unit q).
+    replace (x * x' + _ * _ + _ * _) with
+      (x * x' + (cos q * cos q) * (y * y' + z * z') + (sin q * sin q) * (y * y' + z * z')) by ring. rewrite e. ring. }
+  assert (Y : forall q v1 v2, dot (rot_y q v1) (rot_y q v2) = dot v1 v2).
+  { intros q [x y z] [x' y' z']. unfold dot, rot_y. cbn [vx vy vz]. assert (e := unit q).
+    replace (_ + y * y' + _) with
+      (y * y' + (cos q * cos q) * (x * x' + z * z') + (sin q * sin q) * (x * x' + z * z')) by ring. rewrite e. ring. }
+  assert (Z : forall q v1 v2, dot (rot_z q v1) (rot_z q v2) = dot v1 v2).
+  { intros q [x y z] [x' y' z']. unfold dot, rot_z. cbn [vx vy vz]. assert (e := unit q).
+    replace (_ + z * z') with
+      (z * z' + (cos q * cos q) * (x * x' + y * y') + (sin q * sin q) * (x * x' + y * y')) by ring. rewrite e. ring. }
+  destruct a; cbn [turn_of]; repeat first [rewrite X | rewrite Y | rewrite Z]; reflexivity.
+Qed.
+
+Lemma turn_is_sum u w : turn at_s (plus u w) = plus (turn at_s u) (turn at_s w).
+Proof.
+  change (turn at_s) with (turn_of (pose_angles m) (value v')).
+  rewrite (turn_is_linear _ _ (plus u w)), (turn_is_linear _ _ u), (turn_is_linear _ _ w).
+  generalize (turn_of (pose_angles m) (value v') unit_x), (turn_of (pose_angles m) (value v') unit_y),
+    (turn_of (pose_angles m) (value v') unit_z). by_coordinates.
+Qed.
+
+Lemma dot_in_axes a h u : dot h (in_axes a at_s u) = dot (seen_from a (turn at_s) h) u.
+Proof.
+  destruct a; cbn [in_axes seen_from]; [reflexivity |].
+  change (turn at_s) with (turn_of (pose_angles m) (value v')). rewrite (turn_is_linear _ _ u).
+  generalize (turn_of (pose_angles m) (value v') unit_x), (turn_of (pose_angles m) (value v') unit_y),
+    (turn_of (pose_angles m) (value v') unit_z). by_coordinates.
+Qed.
+
+(** What a part is of: a form of what one wrench makes at m and at s, and what others add to that at s. *)
+Definition part_holds (p : part) (y : R) : Prop :=
+  exists q q', enc (fst p) q q' /\ is_in (y - q') (snd p).
+
+Lemma only_holds x i : is_in x i -> part_holds (only prec i) x.
+Proof.
+  intros h. exists 0, 0. split; [apply constant_encloses, (integer_is_in prec 0) |]. now rewrite Rminus_0_r.
+Qed.
+
+Lemma middle_is_in l u : is_in ((Q2R l + Q2R u) * / 2) (middle prec l u).
+Proof.
+  replace ((Q2R l + Q2R u) * / 2) with (Q2R ((l + u) * (1 # 2))); [apply fraction_is_in |].
+  rewrite Q2R_mult, Q2R_plus. unfold Q2R at 3. cbn [Qnum Qden]. lra.
+Qed.
+
+Lemma half_range_is_in l u : is_in ((Q2R u - Q2R l) * / 2) (half_range prec l u).
+Proof.
+  replace ((Q2R u - Q2R l) * / 2) with (Q2R ((u - l) * (1 # 2))); [apply fraction_is_in |].
+  rewrite Q2R_mult, Q2R_minus. unfold Q2R at 3. cbn [Qnum Qden]. lra.
+Qed.
+
+Lemma multiples_hold l u f q q' : enc f q q' ->
+  enc (fst (multiples prec offset l u f)) ((Q2R l + Q2R u) * / 2 * q) ((Q2R l + Q2R u) * / 2 * q') /\
+  is_in ((Q2R u - Q2R l) * / 2 * Rabs q') (snd (multiples prec offset l u f)).
+Proof.
+  intros h. cbn [multiples fst snd]. split.
+  - apply mul_encloses; [apply constant_encloses, middle_is_in | exact h].
+  - apply mul_is_in; [apply half_range_is_in |]. eapply abs_is_in, range_is_in, h.
+Qed.
+
+Lemma vectors_hold set H h h' u : v_encloses H h h' -> in_vectors set u ->
+  part_holds (vectors_part prec offset set H) (dot h' u).
+Proof.
+  intros e hu. assert (rational := v_rational_encloses). destruct set as [r | r n | d l w]; cbn [vectors_part].
+  - apply only_holds. apply (symmetric_is_in (Q2R r * norm h')); [| now apply ball_is_below].
+    apply mul_is_in; [apply fraction_is_in | now apply (size_is_in _ h)].
+  - apply only_holds. assert (N := size_is_in _ _ _ (rational n)).
+    assert (top : is_in (Q2R r * norm (cross (real_vec n) h'))
+        (mul prec (fraction prec r) (size prec offset (v_cross prec (v_rational prec n) H)))).
+    { apply mul_is_in; [apply fraction_is_in |]. eapply size_is_in, v_cross_encloses; [apply rational | exact e]. }
+    destruct (Req_dec (norm (real_vec n)) 0) as [z | z].
+    + apply (symmetric_is_in (Rabs (dot h' u))); [| apply Rle_refl].
+      apply div_by_0_is_in; [eexists; exact top | rewrite <- z; exact N].
+    + apply (symmetric_is_in (Q2R r * norm (cross (real_vec n) h') / norm (real_vec n))).
+      * now apply div_is_in.
+      * now apply disc_is_below.
+  - destruct (segment_is_near d l w u h' hu) as [f [near eq]].
+    assert (a : enc (f_div prec (v_dot prec H (v_rational prec d)) (constant prec (size prec offset (v_rational prec d))))
+        (dot h (real_vec d) / norm (real_vec d)) (dot h' (real_vec d) / norm (real_vec d))).
+    { apply div_encloses; [apply v_dot_encloses; [exact e | apply rational] |]. apply constant_encloses. eapply size_is_in, rational. }
+    destruct (multiples_hold l w _ _ _ a) as [x y]. eexists; eexists. split; [exact x |]. cbn [snd].
+    eapply symmetric_is_in; [exact y |]. rewrite eq, <- Rmult_minus_distr_r, Rabs_mult.
+    apply Rmult_le_compat_r; [apply Rabs_pos | exact near].
+Qed.
+
+Lemma weight_holds Y y l u g c r mass center : v_encloses (fst Y) (fst y) (fst y) -> v_encloses (snd Y) (snd y) (snd y) ->
+  Q2R l <= mass <= Q2R u -> norm (minus center (real_vec c)) <= Q2R r ->
+  part_holds (weight_part prec offset rotation_form m Y l u g c r)
+    (along_row y (force_at m at_s center (times mass (real_vec g)))).
+Proof.
+  intros hf hm hmass hc. rewrite along_force.
+  set (delta := minus center (real_vec c)) in hc.
+  assert (eq : dot (covector y (arm m at_s center)) (times mass (real_vec g)) =
+    mass * (dot (covector y (arm m at_s (real_vec c))) (real_vec g) + dot (turn at_s delta) (cross (real_vec g) (snd y)))).
+  { replace (arm m at_s center) with (plus (arm m at_s (real_vec c)) (turn at_s delta)).
+    - unfold covector. generalize (arm m at_s (real_vec c)), (turn at_s delta), (real_vec g). destruct y as [f k].
+      by_coordinates.
+    - unfold arm. rewrite <- turn_is_sum. f_equal. unfold delta. generalize (real_vec c), (real_vec (load_point m)).
+      intros a b. clear. revert center a b. by_coordinates. }
+  assert (below : Rabs (dot (turn at_s delta) (cross (real_vec g) (snd y))) <= Q2R r * norm (cross (real_vec g) (snd y))).
+  { apply Rle_trans with (1 := dot_is_below _ _). apply Rmult_le_compat_r; [apply norm_is_positive |].
+    replace (norm (turn at_s delta)) with (norm delta); [exact hc |]. unfold norm. f_equal. symmetry.
+    apply (turn_keeps_dot (pose_angles m) (value v')). }
+  assert (a := v_dot_encloses _ _ _ _ _ _ (covector_encloses Y y _ _ _ hf hm (arm_encloses c)) (v_rational_encloses g)).
+  destruct (multiples_hold l u _ _ _ a) as [x z]. eexists; eexists. split; [exact x |]. cbn [weight_part snd].
+  rewrite eq. eapply symmetric_is_in; [| now apply weight_is_near; [exact hmass | exact below]].
+  apply add_is_in; [exact z |]. apply mul_is_in.
+  - apply add_is_in; [eapply abs_is_in, middle_is_in | apply half_range_is_in].
+  - apply mul_is_in; [apply fraction_is_in |]. eapply size_is_in. apply v_cross_encloses; [apply v_rational_encloses | exact hm].
+Qed.
+
+(** Two covectors and load cases: what a wrench makes is [dot h (force w) + dot k (moment w)]. *)
+Lemma case_encloses H K h h' k k' w : v_encloses H h h' -> v_encloses K k k' ->
+  enc (case_form prec H K w) (along_row (h, k) (real_wrench w)) (along_row (h', k') (real_wrench w)).
+Proof.
+  intros a b. unfold case_form, along_row. cbn [fst snd real_wrench force moment].
+  apply add_encloses; apply v_dot_encloses; try assumption; apply v_rational_encloses.
+Qed.
+
+Lemma hull_holds (y : row) (d : R) (f : vec Q * vec Q -> interval) l w : in_hull l w ->
+  (forall u, is_in (along_row y (real_wrench u) - d) (f u)) -> is_in (along_row y w - d) (hull f l).
+Proof.
+  intros h hf. revert w h. induction l as [| a l IH]; intros w h; [contradiction h |].
+  destruct l as [| b l].
+  - cbn [in_hull] in h. subst w. apply hf.
+  - change (exists (t : R) (u : wrench), 0 <= t <= 1 /\ in_hull (b :: l) u /\
+      w = wrench_plus (wrench_times t (real_wrench a)) (wrench_times (1 - t) u)) in h.
+    destruct h as [x [u [[lo hi] [hu eq]]]]. subst w. rewrite along_plus, !along_times.
+    change (hull f (a :: b :: l)) with (I.join (f a) (hull f (b :: l))).
+    assert (A := join_left _ _ (hull f (b :: l)) (hf a)). assert (B := join_right _ (f a) _ (IH u hu)).
+    apply (between_is_in _ _ _ _ A B).
+    set (p1 := along_row y (real_wrench a)). set (p2 := along_row y u).
+    unfold Rmin, Rmax. destruct (Rle_dec (p1 - d) (p2 - d)); nra.
+Qed.
+
+Lemma cases_hold H K h h' k k' l w : v_encloses H h h' -> v_encloses K k k' -> in_hull l w ->
+  part_holds (cases_part prec offset H K l) (along_row (h', k') w).
+Proof.
+  intros a b hw. destruct l as [| u l]; [contradiction hw |]. cbn [cases_part].
+  exists (along_row (h, k) (real_wrench u)), (along_row (h', k') (real_wrench u)). split; [now apply case_encloses |].
+  cbn [snd]. apply hull_holds; [exact hw |]. intros c.
+  replace (along_row (h', k') (real_wrench c) - along_row (h', k') (real_wrench u)) with
+    (along_row (h', k') (real_wrench (q_minus (fst c) (fst u), q_minus (snd c) (snd u)))).
+  - eapply range_is_in, case_encloses; eassumption.
+  - destruct c as [[c1 c2 c3] [c4 c5 c6]], u as [[u1 u2 u3] [u4 u5 u6]].
+    unfold along_row, real_wrench, q_minus, real_vec, dot. cbn [fst snd force moment vx vy vz].
+    rewrite !Q2R_minus. ring.
+Qed.
+
+(** A row's two vectors. *)
+Definition row_of (c : nat -> R) : row := (Vec (c 0%nat) (c 1%nat) (c 2%nat), Vec (c 3%nat) (c 4%nat) (c 5%nat)).
+
+Lemma along_row_of c w : along_row (row_of c) w = along_six c (six_of w).
+Proof. unfold along_row, along_six, row_of, dot, SixEquations.total. cbn. ring. Qed.
+
+Section Row.
+
+Variables (c : nat -> R) (cI : six interval).
+Hypothesis hc : forall k, (k < 6)%nat -> is_in (c k) (nth6 cI k).
+
+Lemma row_encloses :
+  v_encloses (fst (row_form prec cI)) (fst (row_of c)) (fst (row_of c)) /\
+  v_encloses (snd (row_form prec cI)) (snd (row_of c)) (snd (row_of c)).
+Proof.
+  split; (split; [| split]); apply constant_encloses;
+    first [apply (hc 0%nat); lia | apply (hc 1%nat); lia | apply (hc 2%nat); lia | apply (hc 3%nat); lia |
+      apply (hc 4%nat); lia | apply (hc 5%nat); lia].
+Qed.
+
+Lemma item_holds i w : in_scope [i] = true -> in_item m at_s i w ->
+  part_holds (item_part prec offset rotation_form m cI i) (along_row (row_of c) w).
+Proof.
+  intros scope h. destruct row_encloses as [hf hm].
+  assert (cov := fun point => covector_encloses _ _ _ _ _ hf hm (arm_encloses point)).
+  destruct i as [center shape | l u g point r | set a point | set a | cases a point].
+  - cbn [item_part]. rewrite along_row_of. unfold in_scope in scope. cbn [forallb] in scope.
+    rewrite andb_true_r in scope. destruct (ellipsoid_is_in m at_s c cI center shape w hc scope h) as [x y].
+    exists (along_six c (map6 Q2R center)), (along_six c (map6 Q2R center)).
+    split; [now apply constant_encloses | exact y].
+  - destruct h as [mass [center [hmass [near ->]]]]. apply weight_holds; assumption.
+  - destruct h as [u [hu ->]]. rewrite along_force, dot_in_axes. eapply vectors_hold; [| exact hu].
+    apply seen_encloses, cov.
+  - destruct h as [u [hu ->]]. rewrite along_moment, dot_in_axes. eapply vectors_hold; [| exact hu].
+    apply seen_encloses, hm.
+  - destruct h as [u [hu ->]]. rewrite along_plus, along_force, along_moment, !dot_in_axes.
+    eapply (cases_hold _ _ _ _ _ _ cases u); [apply seen_encloses, cov | apply seen_encloses, hm | exact hu].
+Qed.
+
+Lemma load_holds l : in_scope l = true -> forall w, in_items m at_s l w ->
+  part_holds (load_part prec offset rotation_form m cI l) (along_row (row_of c) w).
+Proof.
+  induction l as [| i l IH]; intros scope w h.
+  - cbn [in_items] in h. subst w. change (part_holds (only prec (zero prec)) (along_row (row_of c) (pure_moment (Vec 0 0 0)))).
+    apply only_holds. replace (along_row _ _) with 0; [apply (integer_is_in prec 0) |].
+    rewrite along_moment. unfold dot. cbn [vx vy vz]. ring.
+  - destruct h as [a [b [-> [ha hb]]]]. cbn [in_scope forallb] in scope. rewrite andb_true_iff in scope.
+    destruct scope as [s1 s2].
+    assert (one_item : in_scope [i] = true) by (unfold in_scope; cbn [forallb]; now rewrite andb_true_r).
+    destruct (item_holds i a one_item ha) as [q [q' [e d]]]. destruct (IH s2 b hb) as [p1 [p1' [e1 d1]]].
+    exists (q + p1), (q' + p1'). rewrite along_plus.
+    change (load_part prec offset rotation_form m cI (i :: l)) with
+      (let p := item_part prec offset rotation_form m cI i in
+       let t := load_part prec offset rotation_form m cI l in (f_add prec (fst p) (fst t), add prec (snd p) (snd t))).
+    cbv zeta. cbn [fst snd]. split; [now apply add_encloses |].
+    replace (along_row (row_of c) a + along_row (row_of c) b - (q' + p1')) with
+      ((along_row (row_of c) a - q') + (along_row (row_of c) b - p1')) by ring.
+    now apply add_is_in.
+Qed.
+
+End Row.
+
+(** ** A pose *)
+
 Lemma column_encloses c k : (k < 6)%nat ->
   enc (nth6 (column_form prec offset rotation_form position_form m c) k)
       (nth6 (density_column m at_m c) k) (nth6 (density_column m at_s c) k).
@@ -337,16 +570,11 @@ Proof.
   { apply v_tight_encloses. unfold cable_vector. apply v_sub_encloses; [| apply v_rational_encloses].
     apply v_add_encloses; [apply position_encloses |].
     exact (turned_encloses (pose_angles m) _ _ _ (v_rational_encloses (platform c))). }
-  assert (r : v_encloses (v_tight prec offset (turned prec rotation_form
-      (v_rational_difference prec (platform c) (load_point m)))) (lever m at_m c) (lever m at_s c)).
-  { apply v_tight_encloses. unfold lever.
-    apply (turned_encloses (pose_angles m)). apply v_sub_encloses; apply v_rational_encloses. }
+  assert (r := arm_encloses (platform c)).
   assert (x := v_cross_encloses _ _ _ _ _ _ r d).
   destruct d as [dx [dy dz]], x as [xx [xy xz]].
   revert k. apply each_of_six; cbn [nth6 column_form density_column at1 at2 at3 at4 at5 at6]; assumption.
 Qed.
-
-(** ** A pose *)
 
 Lemma f_sum_encloses l r r' : (forall k, (k < 6)%nat -> enc (nth6 l k) (r k) (r' k)) ->
   enc (f_sum prec l) (total r) (total r').
@@ -368,7 +596,7 @@ Qed.
 
 (* So that Coq's kernel compares what these are applied to, before it looks into them. *)
 Strategy 1000 [decide product error_ranges rest_ranges rotation eval column_form length_range].
-Strategy 1000 [densities_matrix density_column pose_at SixEquations.total SixEquations.error6 along_six rest].
+Strategy 1000 [densities_matrix density_column pose_at SixEquations.total SixEquations.error6 along_six rest load_part].
 Strategy expand [check_pose].
 
 Theorem pose_is_sound tension_margin length_margin b : in_scope (load m) = true ->
@@ -395,34 +623,31 @@ Proof.
     apply mul_encloses; [apply constant_encloses, hC | now apply hcol]. }
   assert (hE : forall i, (i < 6)%nat -> forall j, (j < 6)%nat ->
       is_in (error6 C A i j) (nth6 (nth6 (error_ranges prec offset (product prec CI columns)) i) j)).
-  { intros i li j lj. unfold error_ranges. rewrite !nth6_zip.
-    assert (E : enc (tight prec offset (f_sub prec (constant prec (integer prec (nth6 (nth6 units i) j)))
-        (nth6 (nth6 (product prec CI columns) i) j))) (error6 C A' i j) (error6 C A i j)).
-    { apply tight_encloses; [exact zero_in | exact t_in |]. unfold SixEquations.error6.
-      rewrite <- (units_are_delta i j) by assumption.
-      apply sub_encloses; [apply constant_encloses, integer_is_in | apply hCD]. }
-    destruct E as [_ [_ [E _]]]. exact E. }
-  assert (hL : forall i, (i < 6)%nat -> is_in (length_of m at_s i) (nth6 (map6 (length_range prec) columns) i)).
-  { intros i li. rewrite nth6_map. unfold length_range, length_of, cable_length, norm, dot.
-    apply sqrt_is_in. repeat apply add_is_in; apply sqr_is_in.
-    - destruct (hcol i 0%nat) as [_ [_ [q _]]]; [lia | exact q].
-    - destruct (hcol i 1%nat) as [_ [_ [q _]]]; [lia | exact q].
-    - destruct (hcol i 2%nat) as [_ [_ [q _]]]; [lia | exact q]. }
+  { intros i li j lj. unfold error_ranges. rewrite !nth6_zip. apply (range_is_in _ (error6 C A' i j)).
+    unfold SixEquations.error6. rewrite <- (units_are_delta i j) by assumption.
+    apply sub_encloses; [apply constant_encloses, integer_is_in | apply hCD]. }
+  assert (hL : forall i, (i < 6)%nat -> is_in (length_of m at_s i) (nth6 (map6 (length_range prec offset) columns) i)).
+  { intros i li. rewrite nth6_map. apply (size_is_in _ (cable_vector at_m (nth6 (cables m) i))).
+    split; [| split].
+    - apply (hcol i 0%nat). lia.
+    - apply (hcol i 1%nat). lia.
+    - apply (hcol i 2%nat). lia. }
   destruct (decide_is_sound m tension_margin length_margin _ _ _ _ h (length_of m at_s) x0 (error6 C A) hL
     (fun i _ => hx i) hE) as [small [positive [lengths loads]]].
   apply (pose_is_feasible m at_s tension_margin length_margin C x0
     (most (fun i => total (fun j => Rabs (error6 C A i j))))); try assumption.
   - apply (most_bounds (fun i => total (fun j => Rabs (error6 C A i j)))).
-  - intros w hw. apply loads. intros i li. unfold rest_ranges. rewrite !nth6_zip.
+  - intros w hw. apply loads. intros i li. unfold rest_ranges. rewrite !nth6_zip. cbv zeta.
     replace (rest m at_s C x0 w i) with
       (along_six (C i) (six_of w) - total (fun j => total (fun k => C i k * A k j) * x0 j)).
-    + apply sub_is_in; [apply load_is_in; [intros k lk; apply hC | exact scope | exact hw] |].
-      assert (E : enc (tight prec offset (f_sum prec (zip6 (fun e x => f_mul prec e (constant prec x))
-          (nth6 (product prec CI columns) i) xI))) (total (fun j => total (fun k => C i k * A' k j) * x0 j))
-          (total (fun j => total (fun k => C i k * A k j) * x0 j))).
-      { apply tight_encloses; [exact zero_in | exact t_in |]. apply f_sum_encloses. intros j lj. rewrite nth6_zip.
-        apply mul_encloses; [apply hCD | apply constant_encloses, hx]. }
-      destruct E as [_ [_ [E _]]]. exact E.
+    + rewrite <- along_row_of.
+      destruct (load_holds (C i) (nth6 CI i) (fun k _ => hC i k) (load m) scope w hw) as [q [q' [e d]]].
+      set (S := total (fun j => total (fun k => C i k * A k j) * x0 j)).
+      replace (along_row (row_of (C i)) w - S) with ((q' - S) + (along_row (row_of (C i)) w - q')) by ring.
+      apply add_is_in; [| exact d].
+      apply (range_is_in _ (q - total (fun j => total (fun k => C i k * A' k j) * x0 j))).
+      apply sub_encloses; [exact e |]. apply f_sum_encloses. intros j lj. rewrite nth6_zip.
+      apply mul_encloses; [apply hCD | apply constant_encloses, hx].
     + exact (rest_splits (C i) (nth6 (six_of w)) x0 A).
 Qed.
 
@@ -461,11 +686,11 @@ Theorem box_is_sound v w start b : check_box prec c v w start b = true ->
 Proof.
   unfold check_box. cbv zeta. rewrite andb_true_iff. intros [_ h] s [l u].
   set (middle := Qred ((start + upto b) * (1 # 2))) in h.
-  set (S := I.join (between prec start (upto b)) (fraction prec middle)) in h.
+  set (S := I.join (from_to prec start (upto b)) (fraction prec middle)) in h.
   assert (hm : is_in (Q2R middle) (fraction prec middle)) by apply fraction_is_in.
   assert (hm' : is_in (Q2R middle) S) by now apply join_right.
   assert (hs : is_in s S).
-  { apply join_left. unfold between. apply (between_is_in (Q2R start) (Q2R (upto b))).
+  { apply join_left. unfold from_to. apply (between_is_in (Q2R start) (Q2R (upto b))).
     - apply join_left, fraction_is_in.
     - apply join_right, fraction_is_in.
     - rewrite Rmin_left, Rmax_right by lra. lra. }

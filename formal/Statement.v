@@ -50,9 +50,24 @@ Definition sum6 : six R -> R := fold6 Rplus.
     length have to stay strictly between two limits each. *)
 Record cable := Cable { base : vec Q; platform : vec Q; tension : Q * Q; length : Q * Q }.
 
+(** Sets of vectors, forces or moments: all up to a magnitude; those of them at right angles to [normal]; and f times the
+    unit vector along [direction], for every f from [lower] to [upper]. *)
+Inductive vectors := Ball (radius : Q) | Disc (radius : Q) (normal : vec Q)
+  | Along (direction : vec Q) (lower upper : Q).
+
+(** The axes in which vectors are stated. *)
+Inductive axes := OfWorld | OfPlatform.
+
 (** The load is a sum of sets of wrenches. An ellipsoid is the set of all w with (w - center)' shape (w - center) <= 1;
-    its six coordinates are force and moment. *)
-Inductive item := Ellipsoid (center : six Q) (shape : six (six Q)).
+    its six coordinates are force and moment. A weight has any mass from [lower] to [upper], and its centre of gravity
+    anywhere within [tolerance] of [point], a point in the platform's axes. Forces act at such a point. Load cases are
+    wrenches, force and moment about such a point, and all that are between them. *)
+Inductive item :=
+  | Ellipsoid (center : six Q) (shape : six (six Q))
+  | Weight (lower upper : Q) (gravity : vec Q) (point : vec Q) (tolerance : Q)
+  | Force (set : vectors) (a : axes) (point : vec Q)
+  | Moment (set : vectors) (a : axes)
+  | LoadCases (cases : list (vec Q * vec Q)) (a : axes) (point : vec Q).
 
 (** The pose is given by expressions of the parameters; parameters are counted from 0. *)
 Inductive expr :=
@@ -107,11 +122,13 @@ Definition cable_vector (P : pose) (c : cable) : vec R :=
 
 Definition cable_length (P : pose) (c : cable) : R := norm (cable_vector P c).
 
+(** The vector from the load point to a point in the platform's axes, and the wrench of a force that acts there. *)
+Definition arm (m : machine) (P : pose) (point : vec R) : vec R := turn P (minus point (real_vec (load_point m))).
+Definition force_at (m : machine) (P : pose) (point f : vec R) : wrench := Wrench f (cross (arm m P point) f).
+
 (** The wrench that a tension of 1 N of a cable balances: a column of the force Jacobian. *)
 Definition column (m : machine) (P : pose) (c : cable) : wrench :=
-  let u := times (/ cable_length P c) (cable_vector P c) in
-  let lever := turn P (minus (real_vec (platform c)) (real_vec (load_point m))) in
-  Wrench u (cross lever u).
+  force_at m P (real_vec (platform c)) (times (/ cable_length P c) (cable_vector P c)).
 
 (** The wrench that tensions [f] balance, one number a cable: J f. *)
 Definition balanced (m : machine) (P : pose) (f : six R) : wrench :=
@@ -121,18 +138,49 @@ Definition balanced (m : machine) (P : pose) (f : six R) : wrench :=
 Definition six_of (w : wrench) : six R :=
   Six (vx (force w)) (vy (force w)) (vz (force w)) (vx (moment w)) (vy (moment w)) (vz (moment w)).
 
-Definition in_item (i : item) (w : wrench) : Prop :=
+Definition in_vectors (set : vectors) (v : vec R) : Prop :=
+  match set with
+  | Ball radius => norm v <= radius
+  | Disc radius normal => norm v <= radius /\ dot v (real_vec normal) = 0
+  | Along direction lower upper =>
+      exists f : R, lower <= f <= upper /\ v = times (f / norm (real_vec direction)) (real_vec direction)
+  end.
+
+(** All that are between some wrenches: between the first and one that is between the others. *)
+Definition real_wrench (w : vec Q * vec Q) : wrench := Wrench (real_vec (fst w)) (real_vec (snd w)).
+Fixpoint in_hull (cases : list (vec Q * vec Q)) (w : wrench) : Prop :=
+  match cases with
+  | nil => False
+  | v :: nil => w = real_wrench v
+  | v :: rest => exists (t : R) (u : wrench), 0 <= t <= 1 /\ in_hull rest u /\
+      w = wrench_plus (wrench_times t (real_wrench v)) (wrench_times (1 - t) u)
+  end.
+
+Definition in_axes (a : axes) (P : pose) (v : vec R) : vec R :=
+  match a with OfWorld => v | OfPlatform => turn P v end.
+Definition pure_moment (v : vec R) : wrench := Wrench (Vec 0 0 0) v.
+
+Definition in_item (m : machine) (P : pose) (i : item) (w : wrench) : Prop :=
   match i with
   | Ellipsoid center shape =>
       let z := zip6 (fun (x : R) (c : Q) => x - c) (six_of w) center in
       sum6 (zip6 (fun (row : six Q) zi => zi * sum6 (zip6 (fun (e : Q) zj => e * zj) row z)) shape z) <= 1
+  | Weight lower upper gravity point tolerance =>
+      exists (mass : R) (center : vec R), lower <= mass <= upper /\ norm (minus center (real_vec point)) <= tolerance /\
+        w = force_at m P center (times mass (real_vec gravity))
+  | Force set a point => exists v, in_vectors set v /\ w = force_at m P (real_vec point) (in_axes a P v)
+  | Moment set a => exists v, in_vectors set v /\ w = pure_moment (in_axes a P v)
+  | LoadCases cases a point => exists v, in_hull cases v /\
+      w = wrench_plus (force_at m P (real_vec point) (in_axes a P (force v))) (pure_moment (in_axes a P (moment v)))
   end.
 
-Fixpoint in_load (l : list item) (w : wrench) : Prop :=
+(** One wrench of each item; the load may depend on the pose. *)
+Fixpoint in_items (m : machine) (P : pose) (l : list item) (w : wrench) : Prop :=
   match l with
-  | nil => w = Wrench (Vec 0 0 0) (Vec 0 0 0)
-  | i :: l => exists v u, w = wrench_plus v u /\ in_item i v /\ in_load l u
+  | nil => w = pure_moment (Vec 0 0 0)
+  | i :: l => exists v u, w = wrench_plus v u /\ in_item m P i v /\ in_items m P l u
   end.
+Definition in_load (m : machine) (P : pose) : wrench -> Prop := in_items m P (load m).
 
 Definition inside (limits : Q * Q) (margin : Q) (t : R) : Prop := fst limits + margin < t < snd limits - margin.
 
@@ -140,7 +188,7 @@ Definition inside (limits : Q * Q) (margin : Q) (t : R) : Prop := fst limits + m
     that balances it, and these are inside their limits. Both by more than a margin, which may be zero. *)
 Definition feasible_at (m : machine) (tension_margin length_margin : Q) (P : pose) : Prop :=
   all6 (map6 (fun c => inside (length c) length_margin (cable_length P c)) (cables m)) /\
-  forall w, in_load (load m) w ->
+  forall w, in_load m P w ->
     exists f, balanced m P f = w /\ (forall g, balanced m P g = w -> g = f) /\
               all6 (zip6 (fun c t => inside (tension c) tension_margin t) (cables m) f).
 

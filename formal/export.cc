@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "base/input_error.h"
@@ -110,8 +111,7 @@ std::array<std::string, 6> pose_text(const SpaceText& space) {
 }
 
 void require_load_in_scope(const LoadText& load) {
-  if (!load.items.empty()) refuse("items of the load");
-  if (!load.ellipsoid) refuse("a load without an ellipsoid");
+  if (!load.ellipsoid) return;
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) {
       if (i != j && parse_rational((*load.ellipsoid)[i][j]) != 0) refuse("an ellipsoid whose matrix is not diagonal");
@@ -132,6 +132,8 @@ Problem stated_part(const Problem& problem) {
   stated.load.wrench = problem.load.wrench;
   stated.load.ellipsoid = problem.load.ellipsoid;
   stated.load.ellipsoid_name = problem.load.ellipsoid_name;
+  stated.load.gravity_m_s2 = problem.load.gravity_m_s2;
+  stated.load.items = problem.load.items;
   for (const Parameter& parameter : problem.space.parameters) {
     stated.space.parameters.push_back({parameter.name, parameter.kind, parameter.range_lower, parameter.range_upper});
   }
@@ -151,6 +153,46 @@ void require_all_is_stated(const Problem& problem) {
   if (!rest.empty()) refuse(fmt::format("'problem{}'", rest.front().at("path").get<std::string>()));
 }
 
+std::string vectors_text(const VectorSet& set) {
+  if (const auto* ball = std::get_if<BallOfVectors>(&set)) return fmt::format("(Ball {})", number(ball->radius));
+  if (const auto* disc = std::get_if<DiscOfVectors>(&set)) {
+    return fmt::format("(Disc {} {})", number(disc->radius), vec(disc->normal));
+  }
+  const auto& segment = std::get<SegmentOfVectors>(set);
+  return fmt::format("(Along {} {} {})", vec(segment.direction), number(segment.lower), number(segment.upper));
+}
+
+std::string item_text(const LoadItem& item, const RationalVector& gravity) {
+  const auto axes = [](Axes in) { return in == Axes::kWorld ? "OfWorld" : "OfPlatform"; };
+  if (const auto* weight = std::get_if<Weight>(&item.what)) {
+    return fmt::format("Weight {} {} {} {} {}", number(weight->mass_lower), number(weight->mass_upper), vec(gravity),
+                       vec(weight->at), number(weight->at_tolerance));
+  }
+  if (const auto* force = std::get_if<taut::Force>(&item.what)) {
+    return fmt::format("Force {} {} {}", vectors_text(force->set), axes(force->axes), vec(force->at));
+  }
+  if (const auto* moment = std::get_if<Moment>(&item.what)) {
+    return fmt::format("Moment {} {}", vectors_text(moment->set), axes(moment->axes));
+  }
+  const auto& cases = std::get<LoadCases>(item.what);
+  std::vector<std::string> wrenches;
+  for (const auto& w : cases.wrenches) {
+    wrenches.push_back(fmt::format("({}, {})", vec({w[0], w[1], w[2]}), vec({w[3], w[4], w[5]})));
+  }
+  return fmt::format("LoadCases [{}] {} {}", fmt::join(wrenches, "; "), axes(cases.axes), vec(cases.at));
+}
+
+std::string load_text(const LoadText& load) {
+  std::vector<std::string> items;
+  if (load.ellipsoid) {
+    std::string text = fmt::format("Ellipsoid {}\n    (Six", six(load.wrench));
+    for (const auto& row : *load.ellipsoid) text += "\n      " + six(row);
+    items.push_back(text + ")");
+  }
+  for (const LoadItem& item : load.items) items.push_back(item_text(item, load.gravity_m_s2));
+  return fmt::format("[{}]", fmt::join(items, ";\n    "));
+}
+
 std::string machine_text(const Problem& stated) {
   const RobotText& robot = stated.robot;
   std::string text = "Definition robot : machine := {|\n  cables := Six";
@@ -158,12 +200,10 @@ std::string machine_text(const Problem& stated) {
     text += fmt::format("\n    (Cable {} {} {} {})", vec(robot.base_anchors_m[i]), vec(robot.platform_anchors_m[i]),
                         pair(robot.tension_N[i]), pair(robot.length_m[i]));
   }
-  text += fmt::format(";\n  load_point := {};\n  load := [Ellipsoid {}\n    (Six", vec(stated.load.point_m),
-                      six(stated.load.wrench));
-  for (const auto& row : *stated.load.ellipsoid) text += "\n      " + six(row);
+  text += fmt::format(";\n  load_point := {};\n  load := {}", vec(stated.load.point_m), load_text(stated.load));
   const std::array<std::string, 6> pose = pose_text(stated.space);
   const AngleKind kind = stated.space.angles.kind;
-  text += fmt::format(")];\n  pose_position := Vec {} {} {};\n  pose_angles := {} {} {} {}\n|}}.\n", pose[0], pose[1],
+  text += fmt::format(";\n  pose_position := Vec {} {} {};\n  pose_angles := {} {} {} {}\n|}}.\n", pose[0], pose[1],
                       pose[2],
                       kind == AngleKind::kTiltAndTorsion ? "TiltTorsion"
                       : kind == AngleKind::kRollPitchYaw ? "RollPitchYaw"
@@ -211,7 +251,8 @@ void require_in_scope(const Certificate& certificate) {
   if (problem.space.angles.kind == AngleKind::kAxis) refuse("a platform that turns about an axis");
   require_load_in_scope(problem.load);
   require_all_is_stated(problem);
-  if (certificate.claim != checker::kProvedClaim) refuse("a claim of more than tensions and lengths");
+  const std::string items = problem.load.items.empty() ? "" : checker::kItemsClause;
+  if (certificate.claim != checker::kProvedClaim + items) refuse("a claim of more than tensions and lengths");
   (void)pose_text(problem.space);
 }
 
@@ -242,6 +283,21 @@ std::string coq_file(const Certificate& certificate, const std::string& sha256,
       "Print Assumptions feasible.\n",
       sha256, fmt::join(names, ", "), machine_text(stated), fmt::join(waypoints, ";\n           "), boxes_text(boxes),
       instance == Instance::kExact ? "Exact" : "Fast");
+}
+
+std::string boxes_file(const std::vector<std::vector<Box>>& boxes) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const std::vector<Box>& segment : boxes) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Box& box : segment) {
+      list.push_back({{"upto", fmt::format("{}/{}", box.index + 1, 1L << box.depth)},
+                      {"scale", box.scale},
+                      {"inverse", box.inverse},
+                      {"densities", box.densities}});
+    }
+    all.push_back(std::move(list));
+  }
+  return nlohmann::json{{"boxes", std::move(all)}}.dump() + "\n";
 }
 
 }  // namespace taut::formal

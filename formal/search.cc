@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/input_error.h"
+#include "formal/load.h"
 #include "formal/slope.h"
 #include "problem/expression.h"
 #include "problem/rational.h"
@@ -21,39 +22,26 @@ constexpr int kFigures = 20;
 constexpr double kSpare = 1e-5;
 constexpr double kLargestNorm = 0.999;
 
-using Vector = std::array<Slope, 3>;
 using Matrix = std::array<std::array<double, 6>, 6>;
-
-Vector operator+(const Vector& u, const Vector& v) { return {u[0] + v[0], u[1] + v[1], u[2] + v[2]}; }
-Vector operator-(const Vector& u, const Vector& v) { return {u[0] - v[0], u[1] - v[1], u[2] - v[2]}; }
-Vector cross(const Vector& u, const Vector& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
 
 /// What is the same for all boxes; made under run_upward().
 struct Machine {
   std::array<Vector, 6> base, platform, lever;
-  std::array<Interval, 6> wrench, shape;
+  Load load;
   std::array<std::array<Interval, 2>, 6> tension, length;
 };
 
-Interval number(const DecimalText& text) { return ScalarTraits<Interval>::from_decimal(text); }
-Vector vector(const std::array<DecimalText, 3>& text) {
-  return {Slope(number(text[0])), Slope(number(text[1])), Slope(number(text[2]))};
-}
-
 Machine machine(const Problem& problem) {
   Machine m;
-  const Vector load_point = vector(problem.load.point_m);
+  const Vector load_point = exact(problem.load.point_m);
   for (std::size_t i = 0; i < 6; ++i) {
-    m.base[i] = vector(problem.robot.base_anchors_m[i]);
-    m.platform[i] = vector(problem.robot.platform_anchors_m[i]);
+    m.base[i] = exact(problem.robot.base_anchors_m[i]);
+    m.platform[i] = exact(problem.robot.platform_anchors_m[i]);
     m.lever[i] = m.platform[i] - load_point;
-    m.wrench[i] = number(problem.load.wrench[i]);
-    m.shape[i] = from_rational<Interval>((*problem.load.ellipsoid)[i][i]);
-    m.tension[i] = {number(problem.robot.tension_N[i].lower), number(problem.robot.tension_N[i].upper)};
-    m.length[i] = {number(problem.robot.length_m[i].lower), number(problem.robot.length_m[i].upper)};
+    m.tension[i] = {exact(problem.robot.tension_N[i].lower), exact(problem.robot.tension_N[i].upper)};
+    m.length[i] = {exact(problem.robot.length_m[i].lower), exact(problem.robot.length_m[i].upper)};
   }
+  m.load = Load(problem.load);
   return m;
 }
 
@@ -67,7 +55,7 @@ std::array<Slope, 6> evaluate(const ExpressionTape& tape, const std::vector<Slop
     switch (step.op) {
       case Op::kConstant: {
         const DecimalText& text = tape.constants().at(index);
-        slots.emplace_back(text == "pi" ? ScalarTraits<Interval>::pi() : number(text));
+        slots.emplace_back(text == "pi" ? ScalarTraits<Interval>::pi() : exact(text));
         break;
       }
       case Op::kParameter: slots.push_back(Slope(parameters.at(index))); break;
@@ -125,19 +113,6 @@ std::array<Vector, 3> rotation(AngleKind kind, const std::array<Slope, 6>& pose)
   return columns;
 }
 
-Vector image(const std::array<Vector, 3>& columns, const Vector& v) {
-  Vector result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = v[0] * columns[0][i] + v[1] * columns[1][i] + v[2] * columns[2][i];
-  }
-  return result;
-}
-
-Vector tight(Vector v, Interval t) {
-  for (Slope& x : v) x = formal::tight(x, t);
-  return v;
-}
-
 bool invert(Matrix a, Matrix& inverse) {
   inverse = {};
   for (std::size_t i = 0; i < 6; ++i) inverse[i][i] = 1;
@@ -187,11 +162,11 @@ class Judge {
       parameters.emplace_back(line.at(middle), line.at(s), line.slope(s));
     }
     const std::array<Slope, 6> pose = evaluate(tape_, parameters);
-    const std::array<Vector, 3> columns = rotation(problem_.space.angles.kind, pose);
+    columns_ = rotation(problem_.space.angles.kind, pose);
     const Vector position{pose[0], pose[1], pose[2]};
     for (std::size_t i = 0; i < 6; ++i) {
-      const Vector d = tight(position + image(columns, machine_.platform[i]) - machine_.base[i], t_);
-      const Vector moment = cross(tight(image(columns, machine_.lever[i]), t_), d);
+      const Vector d = tight(position + image(columns_, machine_.platform[i]) - machine_.base[i], t_);
+      const Vector moment = cross(tight(image(columns_, machine_.lever[i]), t_), d);
       length_[i] = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
       for (std::size_t k = 0; k < 3; ++k) {
         d_[k][i] = d[k];
@@ -218,19 +193,26 @@ class Judge {
     box.scale = std::clamp(kFigures - std::ilogb(smallest), 1, 60);
     const double unit = std::ldexp(1.0, box.scale);
     for (std::size_t i = 0; i < 6; ++i) {
-      double density = 0;
       for (std::size_t j = 0; j < 6; ++j) {
         if (!(std::abs(inverse[i][j]) * unit < 1e18)) return false;
         box.inverse[i][j] = std::lrint(inverse[i][j] * unit);
-        density += inverse[i][j] * midpoint_approx(machine_.wrench[j]);
       }
+    }
+    unit_ = std::ldexp(1.0, -box.scale);
+    for (std::size_t i = 0; i < 6; ++i) {
+      parts_[i] = machine_.load.part(row(box, i), columns_, t_);
+      const double density = midpoint_approx(parts_[i].form.mid);
       if (!(std::abs(density) * unit < 1e18)) return false;
       box.densities[i] = std::lrint(density * unit);
     }
-    unit_ = std::ldexp(1.0, -box.scale);
     return true;
   }
 
+  [[nodiscard]] std::array<Interval, 6> row(const Box& box, std::size_t i) const {
+    std::array<Interval, 6> result;
+    for (std::size_t k = 0; k < 6; ++k) result[k] = scaled(box.inverse[i][k]);
+    return result;
+  }
   [[nodiscard]] Interval scaled(long n) const { return unit_ * Interval(static_cast<double>(n)); }
 
   /// Sets E = I - C D and its norm.
@@ -241,7 +223,7 @@ class Judge {
       for (std::size_t j = 0; j < 6; ++j) {
         Slope product;
         for (std::size_t k = 0; k < 6; ++k) product = product + Slope(scaled(box.inverse[i][k])) * d_[k][j];
-        e_[i][j] = formal::tight(Slope(Interval(i == j ? 1.0 : 0.0)) - product, t_).over;
+        e_[i][j] = tight(Slope(Interval(i == j ? 1.0 : 0.0)) - product, t_).over;
         sum += magnitude(e_[i][j]);
       }
       norm_ = std::max(norm_, sum);
@@ -251,19 +233,13 @@ class Judge {
 
   /// What C maps the load to, without C D x0.
   [[nodiscard]] Interval residual(const Box& box, std::size_t i) const {
-    Interval center(0.0);
-    Interval spread(0.0);
     Slope balanced;
     for (std::size_t k = 0; k < 6; ++k) {
-      const Interval c = scaled(box.inverse[i][k]);
-      center += c * machine_.wrench[k];
-      spread += c * c / machine_.shape[k];
       Slope row;
       for (std::size_t j = 0; j < 6; ++j) row = row + d_[k][j] * Slope(scaled(box.densities[j]));
-      balanced = balanced + Slope(c) * row;
+      balanced = balanced + Slope(scaled(box.inverse[i][k])) * row;
     }
-    const double radius = sqrt(spread).upper();
-    return center + Interval(-radius, radius) - formal::tight(balanced, t_).over;
+    return tight(parts_[i].form - balanced, t_).over + parts_[i].others;
   }
 
   [[nodiscard]] bool is_inside(const Box& box) const {
@@ -284,7 +260,7 @@ class Judge {
       }
     }
     for (std::size_t i = 0; i < 6; ++i) {
-      const Interval length = formal::tight(length_[i], t_).over;
+      const Interval length = tight(length_[i], t_).over;
       if (!keeps(machine_.length[i], length)) return false;
       if (!keeps(machine_.tension[i], length * (scaled(box.densities[i]) + y[i]))) return false;
     }
@@ -301,6 +277,8 @@ class Judge {
   const Segment& segment_;
   Machine machine_;
   Interval t_{0.0};
+  std::array<Vector, 3> columns_;  ///< of the rotation
+  std::array<Part, 6> parts_;      ///< what the load makes of each row of C
   std::array<std::array<Slope, 6>, 6> d_;
   std::array<std::array<Interval, 6>, 6> e_;
   std::array<Slope, 6> length_;

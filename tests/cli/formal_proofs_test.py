@@ -13,10 +13,12 @@ import re
 from fractions import Fraction
 
 from command_line import CASES, ROBOT1, SOURCE, TAUT, InFolder, main, run, text_of
+from coq_data import read
 
 LIBRARY = os.path.join(SOURCE, "formal")
 SPHERE = os.path.join(CASES, "robot2-sphere-q1-q2.yaml")
 ROLL_PITCH_YAW = os.path.join(CASES, "robot1-roll-pitch-yaw.yaml")
+ITEMS = os.path.join(SOURCE, "tests", "cli", "formal_items.yaml")
 AXIOMS = {"sig_not_dec", "sig_forall_dec", "functional_extensionality_dep", "epsilon_statement", "classic"}
 POSES = 12          # of each robot
 SCALE = 44
@@ -42,7 +44,8 @@ class Proofs(InFolder):
 
 class WhatIsTrue(Proofs):
     def test_the_kernel_proves_what_is_written(self):
-        for case, options in ((ROBOT1, []), (SPHERE, ["--fast"]), (ROLL_PITCH_YAW, ["--fast"])):
+        for case, options in ((ROBOT1, []), (SPHERE, ["--fast"]), (ROLL_PITCH_YAW, ["--fast"]),
+                              (ITEMS, ["--fast"]), (ITEMS, [])):
             with self.subTest(case):
                 said = run(TAUT, "formal", self.plan(case), *options)
                 self.assertEqual(said.returncode, 0, said.stderr)
@@ -55,10 +58,19 @@ class WhatIsTrue(Proofs):
 
 
 class WhatIsNotTrue(Proofs):
-    def test_the_kernel_refuses_it(self):
-        text = self.written(ROBOT1).replace("Print Assumptions feasible.\n", "")
+    def refused(self, case, edits):
+        text = self.written(case).replace("Print Assumptions feasible.\n", "")
         self.assertEqual(self.coqc(text).returncode, 0)
-        for name, pattern, edit in [
+        for name, pattern, edit in edits:
+            with self.subTest(name):
+                mutant = re.sub(pattern, edit, text, count=1)
+                self.assertNotEqual(mutant, text)
+                said = self.coqc(mutant)
+                self.assertNotEqual(said.returncode, 0)
+                self.assertIn("eq_refl", said.stderr)
+
+    def test_the_kernel_refuses_it(self):
+        self.refused(ROBOT1, [
                 ("a forged box", r"(Box \(\d+ # \d+\) \d+ \(Six\s+)\(Six (?:[^()]|\(-\d+\))*\)",
                  r"\1(Six 0 0 0 0 0 0)"),
                 ("forged densities", r"(\)%Z\s+\(Six )(?:-?\d+|\(-\d+\))", r"\g<1>1000000000000"),
@@ -67,13 +79,21 @@ class WhatIsNotTrue(Proofs):
                 ("a tighter limit of length", r"\(0\.1, 0\.55\)", "(0.1, 0.4)"),
                 ("another anchor", r"\(Vec 0 0\.22 0\)", "(Vec 0 0.12 0)"),
                 ("the machine of another case", r"\(Number 0\.35\)", "(Number 0.15)"),
-                ("a larger margin", "length_margin := 0;", "length_margin := 0.1;")]:
-            with self.subTest(name):
-                mutant = re.sub(pattern, edit, text, count=1)
-                self.assertNotEqual(mutant, text)
-                said = self.coqc(mutant)
-                self.assertNotEqual(said.returncode, 0)
-                self.assertIn("eq_refl", said.stderr)
+                ("a larger margin", "length_margin := 0;", "length_margin := 0.1;")])
+
+    def test_it_refuses_more_of_each_item(self):
+        self.refused(ITEMS, [
+                ("a heavier weight", "Weight 8000 8000", "Weight 8000 80000"),
+                ("a weight elsewhere", r"\(Vec 0 0 \(-1\.2\)\) 0\.05", "(Vec 9 0 (-1.2)) 0.05"),
+                ("a weight anywhere", r"\(Vec 0 0 \(-1\.2\)\) 0\.05", "(Vec 0 0 (-1.2)) 5"),
+                ("more wind", "Disc 6000", "Disc 60000"),
+                ("wind from below", r"Disc 6000 \(Vec 0 0 \(-9\.81\)\)", "Disc 60000 (Vec 1 0 0)"),
+                ("more of a gust", "Ball 1000", "Ball 50000"),
+                ("a longer hose", r"\(Vec 1 2 \(-2\)\) 500 1500", "(Vec 1 2 (-2)) 500 90000"),
+                ("a stronger drive", r"\(Vec 0 0 1\) 0 2000", "(Vec 0 0 1) 0 200000"),
+                ("more swirl", r"Moment \(Ball 1000\)", "Moment (Ball 100000)"),
+                ("another load case", r"\(Vec 0 200 \(-1000\)\)", "(Vec 0 90000 (-1000))"),
+                ("no case at all", r"LoadCases \[[^]]*\]", "LoadCases []")])
 
 
 def turned(angles, v):
@@ -163,6 +183,100 @@ class TheStatement(Proofs):
                       for k, line in enumerate(chosen) for place in places[k % 4::4]]
             said = self.coqc(head + "".join(goals))
             self.assertEqual(said.returncode, 0, said.stderr)
+
+
+def dot(u, v):
+    return sum(x * y for x, y in zip(u, v))
+
+
+def floats(vector):
+    return [float(x) for x in vector[1:]]
+
+
+def range_over_vectors(stated, h):
+    """The least and the greatest h.v."""
+    kind, *data = stated
+    if kind == "Ball":
+        most = float(data[0]) * math.hypot(*h)
+    elif kind == "Disc":
+        n = floats(data[1])
+        share = dot(h, n) / dot(n, n)
+        most = float(data[0]) * math.hypot(*(x - share * y for x, y in zip(h, n)))
+    else:
+        along = dot(h, floats(data[0])) / math.hypot(*floats(data[0]))
+        return sorted(float(f) * along for f in data[1:])
+    return -most, most
+
+
+class TheLoad(Proofs):
+    """At a pose, Coq's ranges of tensions over the items are those of the items' definitions.
+
+    A weight has a range of masses or a tolerance of place here, and not both: of both together Coq takes a little more.
+    """
+    ROOM = Fraction(1, 10**5)
+
+    def setUp(self):
+        super().setUp()
+        text = self.written(ITEMS)
+        text = text.replace("Weight 8000 8000", "Weight 7900 8100").replace("Weight 11760 12240", "Weight 12000 12000")
+        self.machine = re.search(r"Definition robot : machine := (.*?)\.\n\n", text, re.S).group(1)
+        self.head = text[:text.index("Definition cert")]
+        self.robot = read(text)["robot"]
+
+    def range_over_item(self, item, pose, y):
+        kind, *data = item
+        force, moment = y[:3], y[3:]
+        h = [x + m for x, m in zip(force, cross(moment, turned(pose[3:], self.point(item))))]
+
+        def seen(u):
+            """u in the axes in which the item is stated."""
+            if "OfWorld" in data:
+                return u
+            return [dot(u, turned(pose[3:], [float(i == j) for j in range(3)])) for i in range(3)]
+        if kind == "Weight":
+            gravity, off = floats(data[2]), float(data[4]) * math.hypot(*cross(floats(data[2]), moment))
+            all_of = [float(mass) * (dot(h, gravity) + sign * off) for mass in data[:2] for sign in (-1, 1)]
+        elif kind == "LoadCases":
+            all_of = [dot(seen(h), floats(f)) + dot(seen(moment), floats(m)) for f, m in data[0]]
+        else:
+            return range_over_vectors(data[0], seen(h if kind == "Force" else moment))
+        return min(all_of), max(all_of)
+
+    def point(self, item):
+        at = {"Weight": 4, "Force": 3, "LoadCases": 3}.get(item[0])
+        return [0, 0, 0] if at is None else [x - y for x, y in zip(floats(item[at]), floats(self.robot["load_point"]))]
+
+    def test_it_is_what_the_items_are(self):
+        self.assertEqual({item[0] for item in self.robot["load"]}, {"Weight", "Force", "Moment", "LoadCases"})
+        goals = []
+        for k, pose in enumerate([(-4, 0.5, 6, 0.3, 0.1, -0.1), (2, -1, 5, -0.2, 0.05, 0.2)]):
+            columns, lengths = [], []
+            for _, base, platform, *_ in self.robot["cables"][1:]:
+                arm = turned(pose[3:], floats(platform))
+                d = [p + x - a for p, x, a in zip(pose, arm, floats(base))]
+                columns.append((*d, *cross(arm, d)))
+                lengths.append(math.hypot(*d))
+            self.assertEqual(floats(self.robot["load_point"]), [0, 0, 0])
+            rows = inverse(list(zip(*columns)))
+            ranges = [[sum(ends) for ends in zip(*(self.range_over_item(item, pose, y) for item in self.robot["load"]))]
+                      for y in rows]
+            middles = [(low + high) / 2 for low, high in ranges]
+            box = f"[[Box 1 {SCALE} (Six {' '.join(map(six, rows))})%Z {six(middles)}%Z]]"
+            edits = [None] + [(i, side) for i in range(6) for side in (0, 1)]
+            for edit in edits[:1] + edits[1 + k::2]:
+                def limit(i, side):
+                    room = -self.ROOM if edit == (i, side) else self.ROOM
+                    return exact(Fraction(lengths[i] * ranges[i][side]) + (room if side == 1 else -room))
+                limits = iter([(limit(i, 0), limit(i, 1)) for i in range(6)])
+                machine = re.sub(r"\(2000, 160000\)", lambda _: "({}, {})".format(*next(limits)), self.machine)
+                machine = re.sub(r"pose_position.*", "pose_position := Vec (Param 0) (Param 1) (Param 2);\n"
+                                 "  pose_angles := TiltTorsion (Param 3) (Param 4) (Param 5) |}", machine, flags=re.S)
+                point = f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in pose)}]"
+                goals.append(f"Goal Fast.N.C.check {{| subject := {machine}; path := [{point}; {point}];\n"
+                             f"  tension_margin := 0; length_margin := 0; bits := 60; boxes := {box} |}} = "
+                             f"{'true' if edit is None else 'false'}.\nProof. vm_compute. reflexivity. Qed.\n")
+        said = self.coqc(self.head + "".join(goals))
+        self.assertEqual(said.returncode, 0, said.stderr)
 
 
 if __name__ == "__main__":

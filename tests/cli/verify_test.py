@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""taut-verify, the checker extracted from Coq, which formal/build has made: what it accepts is true.
+
+.ci/nightly runs it; it takes some two minutes.
+
+Usage: verify_test.py TAUT TAUT_CHECK SOURCE_DIR
+"""
+import copy
+import functools
+import json
+import os
+import sys
+import unittest
+
+from command_line import CASES, CHECK, ROBOT1, SOURCE, TAUT, InFolder, main, run, text_of
+
+sys.path.insert(0, os.path.join(SOURCE, "tests", "certificates"))
+import expand  # noqa: E402
+
+VERIFY = os.path.join(SOURCE, "formal", "taut-verify")
+CORPUS = os.path.join(os.path.dirname(os.path.dirname(TAUT)), "tests", "certificates")
+ITEMS = os.path.join(SOURCE, "tests", "cli", "formal_items.yaml")
+PLANNED = [ROBOT1, ITEMS, *(os.path.join(CASES, name + ".yaml") for name in
+                            ("robot1-roll-pitch-yaw", "robot1-free-box-qs-qg", "robot2-sphere-q1-q2",
+                             "robot2-sphere-q2-q3", "robot2-free-q2-q3"))]
+# Of the corpus: rejected or malformed for what the statement does not say, so it is true all the same.
+TRUE = {"roll_pitch_yaw_read_as_zyz": "a margin that is less", "start_one_ulp_off": "the query",
+        "range_left": "ranges of parameters", "periodic_position": "which values are one pose",
+        "flip_of_euler_angles": "which values are one pose", "flip_of_others": "which values are one pose",
+        "flip_theta_periodic": "which values are one pose", "flip_phi_real": "which values are one pose",
+        "range_with_a_name": "ranges of parameters", "limit_negative": "signs of limits",
+        "waypoint_rounded": "that waypoints are of 53 bits", "loads_of_the_same_name": "names"}
+
+
+def verify(certificate, boxes):
+    return run(VERIFY, certificate, boxes, errors="replace")
+
+
+class Verify(InFolder):
+    def boxes(self, certificate, name="boxes.json"):
+        """The boxes of a certificate's path; none where Coq is not told what it states."""
+        file = self.path(name)
+        said = run(TAUT, "formal", certificate, "--no-coq", "--out", self.path("path.v"), "--boxes", file)
+        self.assertIn(said.returncode, (0, 3), said.stderr)
+        return file if said.returncode == 0 else None
+
+    def plan(self, case):
+        said = run(TAUT, "plan", case, "--out", self.out, "--no-report", "--headroom", "0")
+        self.assertEqual(said.returncode, 0, said.stderr)
+        return self.path("certificate.json")
+
+
+class Planned(Verify):
+    def test_paths_are_verified(self):
+        for case in PLANNED:
+            with self.subTest(case):
+                certificate = self.plan(case)
+                said = verify(certificate, self.boxes(certificate))
+                self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+                self.assertTrue(said.stdout.startswith("verified: everywhere along the path of "), said.stdout)
+
+    def test_what_is_not_true_is_refused(self):
+        certificate = self.plan(ITEMS)
+        boxes = self.boxes(certificate)
+        stated = json.loads(text_of(certificate))
+        items = {item["name"]: k for k, item in enumerate(stated["problem"]["load"]["items"])}
+
+        def item(name, kind, key, value):
+            def edit(c):
+                c["problem"]["load"]["items"][items[name]][kind][key] = value
+            return edit
+
+        def put(*keys, value):
+            def edit(c):
+                for key in keys[:-1]:
+                    c = c[key]
+                c[keys[-1]] = value
+            return edit
+        edits = [item("platform", "weight", "mass_kg", ["8000", "80000"]),
+                 item("payload", "weight", "at_m", ["9", "0", "-1.2"]),
+                 item("payload", "weight", "at_tolerance_m", "5"),
+                 item("wind", "force", "disc", {"radius": "60000", "normal": ["0", "0", "1"]}),
+                 item("gust", "force", "ball", {"radius": "50000"}),
+                 item("hose", "force", "segment", {"direction": ["1", "2", "-2"], "range": ["500", "90000"]}),
+                 item("drive", "moment", "segment", {"direction": ["0", "0", "1"], "range": ["0", "2e5"]}),
+                 item("pumps", "load_cases", "wrenches", [["0", "90000", "0", "0", "0", "0"]]),
+                 item("pumps", "load_cases", "wrenches", []),
+                 put("problem", "robot", "tension_N", 0, value=["2000", "9000"]),
+                 put("problem", "robot", "length_m", 3, value=["3", "12"]),
+                 put("problem", "robot", "base_anchors_m", 0, value=["5", "10", "15"]),
+                 put("problem", "space", "pose", "pz", value="pz + 9*sin(pi/2)"),
+                 put("problem", "load", "gravity_m_s2", value=["0", "0", "9.81"]),
+                 put("path", "waypoints", 1, "x", 0, value="0x1.8p+3")]
+        for k, edit in enumerate(edits):
+            with self.subTest(k):
+                mutant = copy.deepcopy(stated)
+                edit(mutant)
+                said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
+                self.assertEqual((said.returncode, said.stdout[:7]), (1, "REFUSED"), said.stderr)
+
+    def test_other_boxes(self):
+        certificate = self.plan(ROBOT1)
+        boxes = json.loads(text_of(self.boxes(certificate)))["boxes"]
+        for name, other in [("none", []), ("of fewer segments", boxes[:-1]), ("of more", boxes + boxes[-1:]),
+                            ("a gap", [boxes[0][:-1], *boxes[1:]]), ("none on a segment", [[], *boxes[1:]]),
+                            ("zeros", [[{**box, "inverse": [[0] * 6] * 6} for box in segment] for segment in boxes])]:
+            with self.subTest(name):
+                said = verify(certificate, self.write("other.json", json.dumps({"boxes": other})))
+                self.assertEqual(said.returncode, 1, said.stderr)
+
+    def test_what_it_does_not_know(self):
+        certificate = self.plan(ITEMS)
+        boxes, text = self.boxes(certificate), text_of(certificate)
+        for name, old, new in [
+                ("a new key of the problem", '"robot":', '"wind_m_s": "3", "robot":'),
+                ("a new key of an item", '"at_tolerance_m":', '"spread": "1", "at_tolerance_m":'),
+                ("a key twice", '"point_m":', '"point_m": ["0","0","0"], "point_m":'),
+                ("a missing key", '"point_m"', '"point"'),
+                ("tolerances", '"tolerances":null', '"tolerances":{}'),
+                ("another law", "straight-in-parameters", "geodesic"),
+                ("a function", '"pz":"pz"', '"pz":"tan(pz)"'),
+                ("a tower of powers", '"pz":"pz"', '"pz":"0*((pz^99)^99)^99"'),
+                ("not a number", '"9.81"', '"nan"'), ("not a number", '"-9.81"', '"-9,81"'),
+                ("not JSON", '"robot":', '"robot"'), ("another file", "taut-certificate", "taut-atlas")]:
+            with self.subTest(name):
+                mutant = text.replace(": ", ":").replace(old, new, 1) if old in text.replace(": ", ":") else None
+                if mutant is None:
+                    self.assertEqual(old, '"9.81"')  # gravity points down
+                    continue
+                said = verify(self.write("mutant.json", mutant), boxes)
+                self.assertEqual(said.returncode, 3, said.stdout + said.stderr)
+                self.assertTrue(said.stderr.startswith("taut-verify: "), said.stderr)
+        for arguments in ([], [certificate], [certificate, "nothing.json"], [certificate, self.write("empty", "")],
+                          [self.write("deep", "[" * 10**6), boxes]):
+            self.assertEqual(run(VERIFY, *arguments).returncode, 3)
+
+
+class Corpus(Verify):
+    """What taut-check does not accept is not verified either, but for what the statement does not say."""
+
+    @functools.cache
+    def boxes_for(self, name):
+        case = self.cases[name]
+        found = self.boxes(self.file(name), name + ".json") if case["expect"] == "accepted" else None
+        return found or (self.boxes_for(case["base"]) if "base" in case else None)
+
+    def file(self, name):
+        return os.path.join(CORPUS, self.cases[name]["expect"], name + ".json")
+
+    def origin(self, name):
+        while self.cases[name]["expect"] != "accepted":
+            name = self.cases[name]["base"]
+        return name
+
+    def statement(self, name):
+        """What of a certificate the statement is made of; nothing where it can't be read."""
+        try:
+            with open(self.file(name), encoding="utf-8") as file:
+                c = json.load(file)
+            return [c["problem"][key] for key in ("robot", "load", "space")], c["path"]
+        except (ValueError, KeyError, TypeError):
+            return None
+
+    def test_it_accepts_nothing_that_is_false(self):
+        self.cases = {name: case for name, case in expand.read_cases().items()}
+        altered, refused = set(), 0
+        for name, case in self.cases.items():
+            if expand.is_of_legs(self.cases, name) or not self.boxes_for(name):
+                continue
+            said = verify(self.file(name), self.boxes_for(name))
+            self.assertIn(said.returncode, (0, 1, 3), name + said.stderr)
+            if said.returncode != 0:
+                refused += 1
+            elif case["expect"] != "accepted" and self.statement(name) != self.statement(self.origin(name)):
+                altered.add(name)
+        self.assertEqual(altered, set(TRUE))
+        self.assertGreater(refused, 50)
+
+
+if __name__ == "__main__":
+    unittest.TestCase.maxDiff = None
+    main()
