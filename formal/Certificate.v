@@ -12,6 +12,7 @@ Record box := Box { upto : Q; scale : positive; inverse : six (six Z); densities
 
 Record certificate := Certificate {
   subject : machine;
+  motion : law;
   path : list waypoint;
   tension_margin : Q;
   length_margin : Q;
@@ -20,4 +21,4 @@ Record certificate := Certificate {
 }.
 
 Definition statement (c : certificate) : Prop :=
-  wrench_feasible (subject c) (path c) (tension_margin c) (length_margin c).
+  wrench_feasible (subject c) (motion c) (path c) (tension_margin c) (length_margin c).

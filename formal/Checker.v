@@ -271,38 +271,67 @@ End Precision.
 
 Definition from_to (prec : F.precision) (l r : Q) : interval := I.join (fraction prec l) (fraction prec r).
 
-Definition parameter (prec : F.precision) (v w : waypoint) (m : interval) (S : interval) (i : nat) : form :=
-  let point u := let (q, h) := nth i u (0%Q, 0%Z) in
-                 add prec (fraction prec q) (mul prec (integer prec h) (I.pi prec)) in
-  let a := point v in
-  let k := sub prec (point w) a in
+(** ** Motions: from enclosures of m and of all s *)
+
+Definition motion_form : Type := interval -> interval -> nat -> form.
+
+Definition point (prec : F.precision) (u : waypoint) (i : nat) : interval :=
+  let (q, h) := nth i u (0%Q, 0%Z) in add prec (fraction prec q) (mul prec (integer prec h) (I.pi prec)).
+
+Definition line_form (prec : F.precision) (v w : waypoint) : motion_form := fun m S i =>
+  let a := point prec v i in
+  let k := sub prec (point prec w i) a in
   Form (add prec a (mul prec m k)) (add prec a (mul prec S k)) k.
 
-Definition check_box (prec : F.precision) (c : certificate) (v w : waypoint) (start : Q) (b : box) : bool :=
-  let middle := Qred ((start + upto b) * (1 # 2)) in
-  let m := fraction prec middle in
-  let S := from_to prec start (upto b) in
-  Qle_bool start (upto b) &&
-  check_pose prec (sub prec (I.join S m) m) (subject c) (tension_margin c) (length_margin c) b
-    (parameter prec v w m (I.join S m)).
+(** By the differences of control points, in powers of s. *)
+Definition spline_form (prec : F.precision) (a b c d : waypoint) : motion_form := fun m S i =>
+  let at_b := point prec b i in
+  let e := sub prec at_b (point prec a i) in
+  let f := sub prec (point prec c i) at_b in
+  let g := sub prec (point prec d i) (point prec c i) in
+  let part x n := constant prec (div prec x (integer prec n)) in
+  let s := Form m S (one prec) in
+  let times_s := f_mul prec s in
+  f_add prec (constant prec (add prec at_b (div prec (sub prec f e) (integer prec 6%Z))))
+    (times_s (f_add prec (part (add prec e f) 2%Z) (times_s (f_add prec (part (sub prec f e) 2%Z)
+      (times_s (part (add prec (sub prec g (mul prec (integer prec 2%Z) f)) e) 6%Z)))))).
 
-(** Boxes from [start] have to reach 1; no box is no proof. *)
-Fixpoint check_boxes (prec : F.precision) (c : certificate) (v w : waypoint) (start : Q) (l : list box) : bool :=
-  match l with
-  | [] => false
-  | [b] => Qeq_bool (upto b) 1 && check_box prec c v w start b
-  | b :: l => check_box prec c v w start b && check_boxes prec c v w (upto b) l
+Fixpoint motions (prec : F.precision) (l : law) (path : list waypoint) : list motion_form :=
+  match path with
+  | [] => []
+  | v :: rest =>
+      match l, rest with
+      | Straight, w :: _ => line_form prec v w :: motions prec l rest
+      | Spline, b :: c :: d :: _ => spline_form prec v b c d :: motions prec l rest
+      | _, _ => []
+      end
   end.
 
-Fixpoint check_path (prec : F.precision) (c : certificate) (path : list waypoint) (l : list (list box)) : bool :=
-  match path, l with
-  | v :: (w :: _) as rest, b :: l => check_boxes prec c v w 0 b && check_path prec c rest l
-  | [_], [] => true
+Definition check_box (prec : F.precision) (c : certificate) (q : motion_form) (start : Q) (b : box) : bool :=
+  let middle := Qred ((start + upto b) * (1 # 2)) in
+  let m := fraction prec middle in
+  let S := I.join (from_to prec start (upto b)) m in
+  Qle_bool start (upto b) &&
+  check_pose prec (sub prec S m) (subject c) (tension_margin c) (length_margin c) b (q m S).
+
+(** Boxes from [start] have to reach 1; no box is no proof. *)
+Fixpoint check_boxes (prec : F.precision) (c : certificate) (q : motion_form) (start : Q) (l : list box) : bool :=
+  match l with
+  | [] => false
+  | [b] => Qeq_bool (upto b) 1 && check_box prec c q start b
+  | b :: l => check_box prec c q start b && check_boxes prec c q (upto b) l
+  end.
+
+Fixpoint check_motions (prec : F.precision) (c : certificate) (l : list motion_form) (boxes : list (list box)) : bool :=
+  match l, boxes with
+  | [], [] => true
+  | q :: l, b :: boxes => check_boxes prec c q 0 b && check_motions prec c l boxes
   | _, _ => false
   end.
 
 Definition check (c : certificate) : bool :=
-  Nat.leb 2 (List.length (path c)) && in_scope (load (subject c)) &&
-  check_path (F.PtoP (bits c)) c (path c) (boxes c).
+  let prec := F.PtoP (bits c) in
+  let l := motions prec (motion c) (path c) in
+  match l with [] => false | _ => true end && in_scope (load (subject c)) && check_motions prec c l (boxes c).
 
 End Checker.

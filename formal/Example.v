@@ -32,6 +32,7 @@ Definition robot : machine := {|
 
 Definition cert : certificate := {|
   subject := robot;
+  motion := Straight;
   path := [[((-0x1.2666666666666p+1), 0%Z); (0x1.999999999999ap+0, 0%Z)];
            [((-0x1.28c42cb6434cfp+1), 0%Z); (0x1.430789f12e00ep+0, 0%Z)];
            [((-0x1.2b29f73e8a50ep+1), 0%Z); (0x1.ffd4e34db2226p-1, 0%Z)];

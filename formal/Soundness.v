@@ -654,17 +654,20 @@ Qed.
 End Offset.
 (** ** A path *)
 
-Lemma point_is_in u i : is_in (coordinate u i)
-  (let (q, h) := nth i u (0%Q, 0%Z) in add prec (fraction prec q) (mul prec (integer prec h) (I.pi prec))).
+Lemma point_is_in u i : is_in (coordinate u i) (point prec u i).
 Proof.
-  unfold coordinate. destruct (nth i u (0%Q, 0%Z)) as [q h].
+  unfold coordinate, point. destruct (nth i u (0%Q, 0%Z)) as [q h].
   apply add_is_in; [apply fraction_is_in |]. apply mul_is_in; [apply integer_is_in | apply I.pi_correct].
 Qed.
 
-Lemma parameter_encloses v w middle s m S : is_in middle m -> is_in middle S -> is_in s S ->
-  forall i, encloses (s - middle) (parameter prec v w m S i) (on_segment v w middle i) (on_segment v w s i).
+(** A motion, and what the checker has of it. *)
+Definition follows (f : motion_form) (q : R -> nat -> R) : Prop :=
+  forall middle s m S, is_in middle m -> is_in middle S -> is_in s S ->
+  forall i, encloses (s - middle) (f m S i) (q middle i) (q s i).
+
+Lemma line_follows v w : follows (line_form prec v w) (on_line v w).
 Proof.
-  intros hm hm' hs i. unfold on_segment, parameter. cbv zeta.
+  intros middle s m S hm hm' hs i. unfold on_line, line_form. cbv zeta.
   assert (a := point_is_in v i). assert (k := sub_is_in prec _ _ _ _ (point_is_in w i) a).
   split; [| split; [| split]]; cbn [mid over slope].
   - apply add_is_in; [exact a | now apply mul_is_in].
@@ -673,16 +676,46 @@ Proof.
   - exists (coordinate w i - coordinate v i). split; [exact k | unfold sloped; ring].
 Qed.
 
+Lemma spline_follows a b c d : follows (spline_form prec a b c d) (on_spline a b c d).
+Proof.
+  intros middle s m S hm hm' hs i.
+  set (A := coordinate a i). set (B := coordinate b i). set (C := coordinate c i). set (D := coordinate d i).
+  assert (powers : forall x, on_spline a b c d x i =
+    (B + (C - B - (B - A)) / 6) + x * ((B - A + (C - B)) / 2 + x * ((C - B - (B - A)) / 2 +
+      x * ((D - C - 2 * (C - B) + (B - A)) / 6)))) by (intros x; unfold on_spline; fold A B C D; field).
+  rewrite !powers. unfold spline_form. cbv zeta.
+  assert (hA := point_is_in a i). assert (hB := point_is_in b i). assert (hC := point_is_in c i).
+  assert (hD := point_is_in d i). fold A in hA. fold B in hB. fold C in hC. fold D in hD.
+  assert (two := integer_is_in prec 2). assert (six := integer_is_in prec 6).
+  assert (place : encloses (s - middle) (Form m S (one prec)) middle s).
+  { split; [exact hm | split; [exact hm' | split; [exact hs |]]]. cbn [slope].
+    exists 1. split; [apply (integer_is_in prec 1) | unfold sloped; ring]. }
+  repeat first [apply add_encloses | (apply mul_encloses; [exact place |])];
+    apply constant_encloses; repeat first [assumption | apply add_is_in | apply sub_is_in | apply mul_is_in | apply div_is_in].
+Qed.
+
+Lemma motions_follow l path : Forall2 follows (motions prec l path) (segments l path).
+Proof.
+  induction path as [| v path IH]; [constructor |].
+  destruct l; cbn [motions segments].
+  - destruct path as [| w path]; [constructor |]. constructor; [apply line_follows | exact IH].
+  - destruct path as [| b [| c [| d path]]]; try constructor. apply spline_follows. exact IH.
+Qed.
+
 Section Certificate.
 
 Variable c : certificate.
 Hypothesis scope : in_scope (load (subject c)) = true.
 
-Notation holds v w s :=
-  (feasible_at (subject c) (tension_margin c) (length_margin c) (pose_at (subject c) (on_segment v w s))).
+Notation holds q s := (feasible_at (subject c) (tension_margin c) (length_margin c) (pose_at (subject c) (q s))).
 
-Theorem box_is_sound v w start b : check_box prec c v w start b = true ->
-  forall s, Q2R start <= s <= Q2R (upto b) -> holds v w s.
+Section Motion.
+
+Variables (f : motion_form) (q : R -> nat -> R).
+Hypothesis f_follows : follows f q.
+
+Theorem box_is_sound start b : check_box prec c f start b = true ->
+  forall s, Q2R start <= s <= Q2R (upto b) -> holds q s.
 Proof.
   unfold check_box. cbv zeta. rewrite andb_true_iff. intros [_ h] s [l u].
   set (middle := Qred ((start + upto b) * (1 # 2))) in h.
@@ -694,36 +727,37 @@ Proof.
     - apply join_left, fraction_is_in.
     - apply join_right, fraction_is_in.
     - rewrite Rmin_left, Rmax_right by lra. lra. }
-  refine (pose_is_sound (s - Q2R middle) _ _ _ _ (on_segment v w (Q2R middle)) (on_segment v w s)
-    (parameter_encloses v w _ _ _ _ hm hm' hs) (subject c) _ _ b scope h).
+  refine (pose_is_sound (s - Q2R middle) _ _ _ _ (q (Q2R middle)) (q s)
+    (f_follows _ _ _ _ hm hm' hs) (subject c) _ _ b scope h).
   - replace 0 with (Q2R middle - Q2R middle) by ring. now apply sub_is_in.
   - now apply sub_is_in.
 Qed.
 
-Lemma boxes_are_sound v w l : forall start, check_boxes prec c v w start l = true ->
-  forall s, Q2R start <= s <= 1 -> holds v w s.
+Lemma boxes_are_sound l : forall start, check_boxes prec c f start l = true ->
+  forall s, Q2R start <= s <= 1 -> holds q s.
 Proof.
   induction l as [| b l IH]; intros start h s [x y]; [discriminate h |].
   destruct l as [| b' l].
   - cbn [check_boxes] in h. rewrite andb_true_iff in h. destruct h as [e h].
-    apply (box_is_sound v w start b h). split; [exact x |].
+    apply (box_is_sound start b h). split; [exact x |].
     apply Qeq_bool_eq, Qeq_eqR in e. rewrite e. unfold Q2R. cbn. lra.
-  - change (check_box prec c v w start b && check_boxes prec c v w (upto b) (b' :: l) = true) in h.
+  - change (check_box prec c f start b && check_boxes prec c f (upto b) (b' :: l) = true) in h.
     rewrite andb_true_iff in h. destruct h as [h h'].
     destruct (Rle_dec s (Q2R (upto b))) as [le | gt].
-    + apply (box_is_sound v w start b h). lra.
+    + apply (box_is_sound start b h). lra.
     + apply (IH (upto b) h'). lra.
 Qed.
 
-Lemma path_is_sound path : forall l, check_path prec c path l = true ->
-  along (fun p => feasible_at (subject c) (tension_margin c) (length_margin c) (pose_at (subject c) p)) path.
+End Motion.
+
+Lemma motions_are_sound fs qs : Forall2 follows fs qs -> forall l, check_motions prec c fs l = true ->
+  Forall (fun q : R -> nat -> R => forall s, 0 <= s <= 1 -> holds q s) qs.
 Proof.
-  induction path as [| v path IH]; intros l h; [exact I |].
-  destruct path as [| w path]; [exact I |].
+  induction 1 as [| f q fs qs fq _ IH]; intros l h; [constructor |].
   destruct l as [| b l]; [discriminate h |].
-  change (check_boxes prec c v w 0 b && check_path prec c (w :: path) l = true) in h.
-  rewrite andb_true_iff in h. destruct h as [h h']. split; [| exact (IH l h')].
-  intros s [x y]. apply (boxes_are_sound v w b 0 h). split; [| exact y]. unfold Q2R. cbn. lra.
+  cbn [check_motions] in h. rewrite andb_true_iff in h. destruct h as [h h'].
+  constructor; [| exact (IH l h')].
+  intros s [x y]. apply (boxes_are_sound f q fq b 0 h). split; [| exact y]. unfold Q2R. cbn. lra.
 Qed.
 
 End Certificate.
@@ -732,8 +766,10 @@ End Precision.
 (** What the checker accepts is true. *)
 Theorem check_sound c : check c = true -> statement c.
 Proof.
-  unfold check. rewrite !andb_true_iff. intros [[many scope] h]. split; [now apply PeanoNat.Nat.leb_le |].
-  exact (path_is_sound (F.PtoP (bits c)) c scope (path c) (boxes c) h).
+  unfold check. cbv zeta. rewrite !andb_true_iff. intros [[many scope] h].
+  assert (all := motions_follow (F.PtoP (bits c)) (motion c) (path c)).
+  split; [| exact (motions_are_sound (F.PtoP (bits c)) c scope _ _ all (boxes c) h)].
+  destruct all; [discriminate many | discriminate].
 Qed.
 
 End Soundness.

@@ -198,15 +198,29 @@ Definition feasible_at (m : machine) (tension_margin length_margin : Q) (P : pos
 Definition waypoint := list (Q * Z).
 Definition coordinate (w : waypoint) (i : nat) : R := let (q, h) := nth i w (0%Q, 0%Z) in q + IZR h * PI.
 
-(** The path is straight in the parameters from each waypoint to the next. *)
-Definition on_segment (v w : waypoint) (s : R) (i : nat) : R := coordinate v i + s * (coordinate w i - coordinate v i).
+(** From each waypoint to the next the path is straight in the parameters. Or its waypoints are the control points of a
+    uniform cubic B-spline, which has a segment for any four in a row. *)
+Inductive law := Straight | Spline.
 
-Fixpoint along (P : (nat -> R) -> Prop) (path : list waypoint) : Prop :=
+Definition on_line (v w : waypoint) (s : R) (i : nat) : R := coordinate v i + s * (coordinate w i - coordinate v i).
+Definition on_spline (a b c d : waypoint) (s : R) (i : nat) : R :=
+  ((1 - s) ^ 3 * coordinate a i + (3 * s ^ 3 - 6 * s ^ 2 + 4) * coordinate b i +
+   (- 3 * s ^ 3 + 3 * s ^ 2 + 3 * s + 1) * coordinate c i + s ^ 3 * coordinate d i) / 6.
+
+(** Its segments: the parameters at each s from 0 to 1. *)
+Fixpoint segments (l : law) (path : list waypoint) : list (R -> nat -> R) :=
   match path with
-  | v :: (w :: _) as rest => (forall s, 0 <= s <= 1 -> P (on_segment v w s)) /\ along P rest
-  | _ => True
+  | nil => nil
+  | v :: rest =>
+      match l, rest with
+      | Straight, w :: _ => on_line v w :: segments l rest
+      | Spline, b :: c :: d :: _ => on_spline v b c d :: segments l rest
+      | _, _ => nil
+      end
   end.
 
-Definition wrench_feasible (m : machine) (path : list waypoint) (tension_margin length_margin : Q) : Prop :=
-  (2 <= List.length path)%nat /\
-  along (fun p => feasible_at m tension_margin length_margin (pose_at m p)) path.
+(** There is a segment, and all poses of all segments are feasible. *)
+Definition wrench_feasible (m : machine) (l : law) (path : list waypoint) (tension_margin length_margin : Q) : Prop :=
+  segments l path <> nil /\
+  Forall (fun motion : R -> nat -> R => forall s, 0 <= s <= 1 ->
+    feasible_at m tension_margin length_margin (pose_at m (motion s))) (segments l path).

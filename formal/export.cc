@@ -241,8 +241,9 @@ std::string boxes_text(const std::vector<std::vector<Box>>& boxes) {
 
 void require_in_scope(const Certificate& certificate) {
   const Problem& problem = certificate.problem;
-  if (certificate.path.interpolation != Interpolation::kStraight) {
-    refuse(fmt::format("a path that is {}", interpolation_name(certificate.path.interpolation)));
+  const Interpolation law = certificate.path.interpolation;
+  if (law != Interpolation::kStraight && law != Interpolation::kCubicBSpline) {
+    refuse(fmt::format("a path that is {}", interpolation_name(law)));
   }
   if (certificate.path.segments() == 0) refuse("a path of a single waypoint");
   if (problem.tolerances) refuse("tolerances");
@@ -274,6 +275,7 @@ std::string coq_file(const Certificate& certificate, const std::string& sha256,
       "{}\n"
       "Definition cert : certificate := {{|\n"
       "  subject := robot;\n"
+      "  motion := {};\n"
       "  path := [{}];\n"
       "  tension_margin := 0; length_margin := 0;\n"
       "  bits := 30;\n"
@@ -281,8 +283,9 @@ std::string coq_file(const Certificate& certificate, const std::string& sha256,
       "Theorem feasible : statement cert.\n"
       "Proof. apply {}.check_sound. vm_cast_no_check (eq_refl true). Qed.\n"
       "Print Assumptions feasible.\n",
-      sha256, fmt::join(names, ", "), machine_text(stated), fmt::join(waypoints, ";\n           "), boxes_text(boxes),
-      instance == Instance::kExact ? "Exact" : "Fast");
+      sha256, fmt::join(names, ", "), machine_text(stated),
+      certificate.path.interpolation == Interpolation::kStraight ? "Straight" : "Spline",
+      fmt::join(waypoints, ";\n           "), boxes_text(boxes), instance == Instance::kExact ? "Exact" : "Fast");
 }
 
 std::string boxes_file(const std::vector<std::vector<Box>>& boxes) {

@@ -158,8 +158,11 @@ class Judge {
   void place(Interval s, Interval middle) {
     std::vector<Slope> parameters;
     for (std::size_t j = 0; j < problem_.space.parameters.size(); ++j) {
-      const Polynomial<Interval> line = coordinate_polynomial<Interval>(segment_, j);
-      parameters.emplace_back(line.at(middle), line.at(s), line.slope(s));
+      const Polynomial<Interval> x = coordinate_polynomial<Interval>(segment_, j);
+      const Slope at(middle, s, Interval(1.0));
+      Slope value = Slope(x.c[0]) + at * Slope(x.c[1]);
+      if (x.cubic) value = Slope(x.c[0]) + at * (Slope(x.c[1]) + at * (Slope(x.c[2]) + at * Slope(x.c[3])));
+      parameters.push_back(value);
     }
     const std::array<Slope, 6> pose = evaluate(tape_, parameters);
     columns_ = rotation(problem_.space.angles.kind, pose);

@@ -284,7 +284,7 @@ let cables json =
   let f = fields place [ "base_anchors_m"; "platform_anchors_m"; "tension_N"; "length_m" ] json in
   let each read key = List.map (read place) (elements place ~count:6 (get key f)) in
   let rec zip a b t l = match (a, b, t, l) with
-    | a :: aa, b :: bb, t :: tt, l :: ll -> { base = a; platform = b; tension = t; length0 = l } :: zip aa bb tt ll
+    | a :: aa, b :: bb, t :: tt, l :: ll -> { base = a; platform = b; tension = t; length = l } :: zip aa bb tt ll
     | _ -> [] in
   match zip (each vec "base_anchors_m") (each vec "platform_anchors_m") (each pair "tension_N") (each pair "length_m") with
   | [ a; b; c; d; e; f ] -> { at1 = a; at2 = b; at3 = c; at4 = d; at5 = e; at6 = f }
@@ -325,9 +325,12 @@ let is_empty = function `Null | `List [] -> true | _ -> false
 let path count json =
   let place = "path" in
   let f = fields place [ "interpolation"; "waypoints" ] ~optional:[ "pose_tubes"; "tubes"; "times" ] json in
-  if text place (get "interpolation" f) <> "straight-in-parameters" then refuse place "a law that Coq is not told";
+  let motion = match text place (get "interpolation" f) with
+    | "straight-in-parameters" -> Straight
+    | "cubic-b-spline" -> Spline
+    | _ -> refuse place "a law that Coq is not told" in
   List.iter (fun k -> if not (Option.fold ~none:true ~some:is_empty (find k f)) then refuse place "'%s'" k) [ "pose_tubes"; "tubes"; "times" ];
-  List.map (waypoint count) (elements place (get "waypoints" f))
+  (motion, List.map (waypoint count) (elements place (get "waypoints" f)))
 
 let box json =
   let place = "boxes" in
@@ -344,10 +347,10 @@ let certificate json boxes =
   if not (is_empty (get "tolerances" f)) then refuse "problem" "tolerances, which Coq is not told";
   let parameters, pose_position, pose_angles = space (get "space" f) in
   let load_point, load = load (get "load" f) in
-  let waypoints = path (List.length parameters) (get "path" all) in
+  let motion, path = path (List.length parameters) (get "path" all) in
   let zero = fraction Int.zero Int.one in
   { subject = { cables = cables (get "robot" f); load_point; load; pose_position; pose_angles };
-    path = waypoints; tension_margin = zero; length_margin = zero; bits = Int.of_int 30;
+    motion; path; tension_margin = zero; length_margin = zero; bits = Int.of_int 30;
     boxes = List.map (fun l -> List.map box (elements "boxes" l)) (elements "boxes" (get "boxes" (fields "boxes" [ "boxes" ] boxes))) }
 
 (* ---- *)
@@ -360,9 +363,9 @@ let () =
         let c = certificate (read file) (read boxes) in
         if Exact.N.C.check c then
           Printf.printf
-            "verified: everywhere along the path of %d segments, for every wrench of the load, exactly one list of \
+            "verified: everywhere along the path (%d segments), for every wrench of the load, exactly one list of \
              tensions balances it, and all tensions and all lengths are strictly within their limits.\n"
-            (List.length c.path - 1)
+            (List.length c.boxes)
         else begin
           print_endline "REFUSED: the checker does not accept it with these boxes.";
           exit 1

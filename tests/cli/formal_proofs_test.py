@@ -18,6 +18,7 @@ from coq_data import read
 LIBRARY = os.path.join(SOURCE, "formal")
 SPHERE = os.path.join(CASES, "robot2-sphere-q1-q2.yaml")
 ROLL_PITCH_YAW = os.path.join(CASES, "robot1-roll-pitch-yaw.yaml")
+SPLINE = os.path.join(CASES, "tutorial", "03-a-smooth-move.yaml")
 ITEMS = os.path.join(SOURCE, "tests", "cli", "formal_items.yaml")
 AXIOMS = {"sig_not_dec", "sig_forall_dec", "functional_extensionality_dep", "epsilon_statement", "classic"}
 POSES = 12          # of each robot
@@ -45,7 +46,7 @@ class Proofs(InFolder):
 class WhatIsTrue(Proofs):
     def test_the_kernel_proves_what_is_written(self):
         for case, options in ((ROBOT1, []), (SPHERE, ["--fast"]), (ROLL_PITCH_YAW, ["--fast"]),
-                              (ITEMS, ["--fast"]), (ITEMS, [])):
+                              (ITEMS, ["--fast"]), (ITEMS, []), (SPLINE, ["--fast"])):
             with self.subTest(case):
                 said = run(TAUT, "formal", self.plan(case), *options)
                 self.assertEqual(said.returncode, 0, said.stderr)
@@ -80,6 +81,11 @@ class WhatIsNotTrue(Proofs):
                 ("another anchor", r"\(Vec 0 0\.22 0\)", "(Vec 0 0.12 0)"),
                 ("the machine of another case", r"\(Number 0\.35\)", "(Number 0.15)"),
                 ("a larger margin", "length_margin := 0;", "length_margin := 0.1;")])
+
+    def test_it_refuses_a_spline_that_is_elsewhere(self):
+        self.refused(SPLINE, [
+                ("straight from control point to control point", "motion := Spline", "motion := Straight"),
+                ("a control point elsewhere", r"(path := \[(?:\[[^]]*\];\s*){4}\[)\([^,]*,", r"\g<1>(9,")])
 
     def test_it_refuses_more_of_each_item(self):
         self.refused(ITEMS, [
@@ -163,8 +169,9 @@ class TheStatement(Proofs):
         text = re.sub(r"\(([^()]+), ([^()]+)\) \(([^()]+), ([^()]+)\)\)", lambda _: " ".join(
             f"({exact(low)}, {exact(high)})" for low, high in next(cables)) + ")", text)
         point = f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in line['pose'])}]"
-        return (f"Goal Fast.N.C.check {{| subject := {text}; path := [{point}; {point}]; tension_margin := 0;\n"
-                f"  length_margin := 0; bits := 60; boxes := {self.box(problem, line['pose'])} |}} = {answer}.\n"
+        return (f"Goal Fast.N.C.check {{| subject := {text}; motion := Straight; path := [{point}; {point}];\n"
+                "  tension_margin := 0; length_margin := 0; bits := 60;\n"
+                f"  boxes := {self.box(problem, line['pose'])} |}} = {answer}.\n"
                 "Proof. vm_compute. reflexivity. Qed.\n")
 
     def test_it_is_of_the_poses_of_50_digits(self):
@@ -272,8 +279,9 @@ class TheLoad(Proofs):
                 machine = re.sub(r"pose_position.*", "pose_position := Vec (Param 0) (Param 1) (Param 2);\n"
                                  "  pose_angles := TiltTorsion (Param 3) (Param 4) (Param 5) |}", machine, flags=re.S)
                 point = f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in pose)}]"
-                goals.append(f"Goal Fast.N.C.check {{| subject := {machine}; path := [{point}; {point}];\n"
-                             f"  tension_margin := 0; length_margin := 0; bits := 60; boxes := {box} |}} = "
+                goals.append(f"Goal Fast.N.C.check {{| subject := {machine}; motion := Straight;\n"
+                             f"  path := [{point}; {point}]; tension_margin := 0; length_margin := 0; bits := 60;\n"
+                             f"  boxes := {box} |}} = "
                              f"{'true' if edit is None else 'false'}.\nProof. vm_compute. reflexivity. Qed.\n")
         said = self.coqc(self.head + "".join(goals))
         self.assertEqual(said.returncode, 0, said.stderr)
