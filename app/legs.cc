@@ -39,7 +39,8 @@ PlannedLegs plan_legs(std::span<const CaseLeg> legs, PlannedCaseOptions options,
     texts.push_back(result.legs.back().planned.text);
   }
   result.text = legs_certificate_text(texts, options.key);
-  result.checked = recheck(result.text, options.max_seconds, stop.stop_requested() ? std::stop_token() : stop);
+  result.checked =
+      recheck(result.text, options.max_seconds, stop.stop_requested() ? std::stop_token() : stop, meshes_of(legs));
   require_confirmed(result.checked);
   for (std::size_t k = 0; k < result.legs.size(); ++k) result.legs[k].planned.checked = result.checked.legs.at(k);
   return result;

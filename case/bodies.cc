@@ -257,7 +257,9 @@ std::vector<PairClass> checked_classes(const Map& map, const BodiesText& bodies,
     }
     checked.push_back(kind);
   }
-  if (checked.empty()) pairs->complain("got an empty list, expected one class of pairs or more, or no 'pairs'");
+  if (checked.empty() && !map.find("exit_cones")) {
+    pairs->complain("got an empty list, expected one class of pairs or more, or no 'pairs'");
+  }
   return checked;
 }
 

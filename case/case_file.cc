@@ -703,10 +703,11 @@ Case read_document(Places& places, const YAML::Node& document, const std::string
 
 CaseOfLegs read_legs_of(const Field& root, const std::string& text, const std::string& name, const CaseCheck& check) {
   CaseOfLegs result;
-  for (const std::string& leg_name : read_legs(root)) {
+  const std::vector<std::string> names = read_legs(root);
+  for (const std::string& leg_name : names) {
     Places places(name);
     YAML::Node document = only_document(text, name);
-    keep_leg(document, leg_name, result.legs.size());
+    keep_leg(document, names, result.legs.size());
     Case leg = read_document(places, document, name, check);
     if (result.legs.empty()) result.whole = leg;
     leg.problem.name = fmt::format("{}, leg {}", leg.problem.name, leg_name);
@@ -741,8 +742,9 @@ CaseOfLegs parse(const std::string& text, const std::string& name, const CaseChe
     const YAML::Node document = only_document(text, name);
     const bool is_of_legs = has_legs(document);
     if (is_of_legs && !allows_legs) {
-      places.fail(document["query"]["legs"].Mark(), "query.legs",
-                  "got legs, expected 'waypoints': only taut plan, taut regress and taut-check take a case of legs");
+      places.fail(
+          document["query"]["legs"].Mark(), "query.legs",
+          "got legs, expected 'waypoints': only taut plan, taut show, taut regress and taut-check take a case of legs");
     }
     CaseOfLegs result;
     if (is_of_legs) {

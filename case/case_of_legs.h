@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Case files that may have legs: paths that follow one another, each with a load of its own (docs/case-format.md,
-// "query"). load_case() refuses them, so that nobody takes a leg for the whole.
+// Case files that may have legs: paths that follow one another, each with a load and bodies of its own
+// (docs/case-format.md, "query"). load_case() refuses them, so that nobody takes a leg for the whole.
 #pragma once
 
 #include <string>

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "base/sanitize.h"
+#include "case/leg_bodies.h"
+#include "case/leg_entries.h"
 #include "problem/decimal.h"
 
 namespace taut::case_fields {
@@ -25,30 +27,11 @@ std::string read_name(const Field& field) {
   return name;
 }
 
-/// Of one item: `legs`, where it has any.
-void require_legs_of_item(const Field& item, const std::vector<std::string>& names) {
-  if (!item.node().IsMap()) return;  // its reader complains
-  const auto legs = item.open_map("an item").find("legs");
-  if (!legs) return;
-  const std::string expected = "a list of one or more of " + join(names);
-  std::vector<std::string> seen;
-  for (const Field& entry : legs->list(expected)) {
-    const std::string name = entry.text(expected);
-    if (std::ranges::find(names, name) == names.end()) entry.fail("one of the legs " + join(names));
-    if (std::ranges::find(seen, name) != seen.end()) {
-      entry.complain(fmt::format("got '{}' twice, expected each leg once", name));
-    }
-    seen.push_back(name);
-  }
-  if (seen.empty()) legs->complain("got an item of no leg, expected " + expected);
-}
-
 void refuse_what_has_no_legs(const Map& root) {
   const auto refuse = [](const std::optional<Field>& field, const std::string& what) {
     if (field)
       field->complain(fmt::format("got {} beside 'query.legs', expected none: legs do not have them yet", what));
   };
-  refuse(root.find("bodies"), "bodies");
   refuse(root.find("audit"), "a path to be audited");
   if (const auto space = root.find("space"); space && space->node().IsMap()) {
     refuse(space->open_map("a space").find("implicit"), "constraints");
@@ -57,13 +40,6 @@ void refuse_what_has_no_legs(const Map& root) {
     const auto ellipsoid = load->open_map("a load").find("ellipsoid");
     if (ellipsoid && ellipsoid->node().IsScalar()) refuse(ellipsoid, "an ellipsoid around items");
   }
-}
-
-/// Whether an item is one of a leg's.
-bool is_of_leg(const YAML::Node& item, const std::string& name) {
-  if (!item.IsMap()) return true;
-  const YAML::Node legs = item["legs"];
-  return !legs || std::any_of(legs.begin(), legs.end(), [&](const YAML::Node& leg) { return leg.Scalar() == name; });
 }
 
 bool are_equal(const ExpressionText& a, const ExpressionText& b) {
@@ -98,34 +74,28 @@ std::vector<std::string> read_legs(const Field& root) {
       waypoints.fail("a list of at least two waypoints");
   }
   refuse_what_has_no_legs(map);
+  require_legs_of_bodies(map, names);
   const auto load = map.find("load");
   if (!load || !load->node().IsMap()) return names;  // its reader complains
   const auto items = load->open_map("a load").find("items");
   if (!items || !items->node().IsSequence()) return names;
   const std::vector<Field> all = items->list("a list of items");
-  for (const Field& item : all) require_legs_of_item(item, names);
+  for (const Field& item : all) require_legs_of_entry(item, "an item", names);
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (std::ranges::any_of(all, [&](const Field& item) { return is_of_leg(item.node(), names[k]); })) continue;
+    if (std::ranges::any_of(all, [&](const Field& item) { return is_in_leg(item.node(), names[k]); })) continue;
     legs[k].complain(fmt::format("got no item of the load in the leg '{}', expected at least one", names[k]));
   }
   return names;
 }
 
-void keep_leg(YAML::Node& root, const std::string& name, std::size_t k) {
+void keep_leg(YAML::Node& root, const std::vector<std::string>& names, std::size_t k) {
   YAML::Node query = root["query"];
   const YAML::Node waypoints = query["legs"][k]["waypoints"];
   query.remove("legs");
   query["waypoints"] = waypoints;
-  YAML::Node load = root["load"];
-  if (!load.IsMap() || !load["items"] || !load["items"].IsSequence()) return;
-  YAML::Node items = load["items"];
-  for (std::size_t i = items.size(); i-- > 0;) {
-    if (!is_of_leg(items[i], name)) {
-      items.remove(i);
-    } else if (items[i].IsMap()) {
-      items[i].remove("legs");
-    }
-  }
+  keep_bodies_of_leg(root, names[k], names);
+  const YAML::Node load = root["load"];
+  if (load.IsMap() && load["items"]) keep_entries_of_leg(load["items"], names[k]);
 }
 
 void require_joined(const Field& root, const std::vector<CaseLeg>& legs) {

@@ -3,10 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <initializer_list>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 
+#include "checker/format/claims.h"
 #include "checker/format/cursor.h"
 #include "checker/kernel/errors.h"
 
@@ -61,16 +66,93 @@ bool is_same_pose(const Problem& problem, const ExactPoint& a, const ExactPoint&
 
 /// What has to be the same of each leg's problem, by its key.
 Json same_of(const Json& problem, const std::string& key) {
-  if (!problem.contains(key)) return {};
-  const Json& value = problem[key];
+  const Json value = problem.value(key, Json());
   const auto with = [&](std::initializer_list<const char*> keys) {
     Json result = Json::object();
-    for (const char* const part : keys) result[part] = value.value(part, Json());
+    for (const char* const part : keys) result[part] = value.is_object() ? value.value(part, Json()) : Json();
     return result;
   };
   if (key == "load") return with({"gravity_m_s2", "point_m"});
-  if (key == "bodies") return with({"cables", "exit_cones"});
+  if (key == "bodies") return with({"exit_cones"});
   return value;
+}
+
+// ---- Bodies ---------------------------------------------------------------------------------------------------------
+
+using Names = std::array<std::string, 2>;
+
+/// What a leg's problem states of bodies.
+struct Scene {
+  explicit Scene(const Json& stated) : json(stated) {
+    for (std::size_t i = 0; i < kCables; ++i) bodies["cable " + std::to_string(i + 1)] = {};
+    for (const char* const list : {"platform", "obstacles"}) {
+      for (const Json& body : json.at(list)) bodies[body.at("name").get<std::string>()] = {{list, body}};
+    }
+    for (const char* const list : {"pair_clearances_m", "contacts"}) {
+      if (!json.contains(list)) continue;
+      for (const Json& entry : json.at(list)) {
+        auto pair = entry.at("pair").get<Names>();
+        std::ranges::sort(pair);
+        entries[pair].insert(list + entry.dump());
+      }
+    }
+  }
+
+  [[nodiscard]] bool has(const Names& pair) const { return bodies.contains(pair[0]) && bodies.contains(pair[1]); }
+
+  const Json& json;
+  std::map<std::string, Json> bodies;                     ///< by name, with the list that they are in
+  std::map<Names, std::multiset<std::string>> entries{};  ///< about single pairs, whose names are in order
+};
+
+/// A class of pairs, and the lists whose bodies it is about.
+struct ClassOfPairs {
+  const char* name;
+  std::vector<const char*> lists;
+};
+
+/// Compares what two legs both state. @returns the key of what differs, or nothing
+std::string difference(const Scene& a, const Scene& b) {
+  if (a.json.at("cables") != b.json.at("cables")) return "cables";
+  for (const auto& [name, body] : a.bodies) {
+    const auto other = b.bodies.find(name);
+    if (other != b.bodies.end() && other->second != body) return "the body '" + name + "'";
+  }
+  const std::array<ClassOfPairs, 4> classes = {{{kPairClassNames[0], {"platform", "obstacles"}},
+                                                {kPairClassNames[1], {"obstacles"}},
+                                                {kPairClassNames[2], {}},
+                                                {kPairClassNames[3], {"platform"}}}};
+  for (const auto& [name, lists] : classes) {
+    const bool have_both = std::ranges::all_of(
+        lists, [&](const char* list) { return !a.json.at(list).empty() && !b.json.at(list).empty(); });
+    const auto clearance = [&, key = name](const Scene& of) { return of.json.at("clearance_m").value(key, Json()); };
+    if (have_both && clearance(a) != clearance(b)) return std::string("the clearance of ") + name;
+  }
+  for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const auto& [pair, entries] : one->entries) {
+      if (!other->has(pair)) continue;
+      const auto found = other->entries.find(pair);
+      if (found == other->entries.end() || found->second != entries) {
+        return "what is stated of '" + pair[0] + "' and '" + pair[1] + "'";
+      }
+    }
+  }
+  return "";
+}
+
+void require_one_scene(const LegsCertificate& certificate) {
+  std::vector<std::pair<std::size_t, Scene>> scenes;
+  for (std::size_t k = 0; k < certificate.legs.size(); ++k) {
+    const Json& problem = certificate.legs[k].certificate.problem_json;
+    if (!problem.contains("bodies")) continue;
+    const Scene scene(problem["bodies"]);
+    for (const auto& [j, other] : scenes) {
+      const std::string what = difference(other, scene);
+      if (what.empty()) continue;
+      throw Rejected(fmt::format("leg {} states other bodies than leg {}: {} differs", k + 1, j + 1, what));
+    }
+    scenes.emplace_back(k, scene);
+  }
 }
 
 }  // namespace
@@ -86,6 +168,7 @@ void require_one_machine(const LegsCertificate& certificate) {
       }
     }
   }
+  require_one_scene(certificate);
 }
 
 void require_joined(const LegsCertificate& certificate) {

@@ -11,7 +11,10 @@
 namespace taut::checker {
 
 /// All problems are the same but for name, query, load and bodies; of loads gravity and the load point are the same, of
-/// bodies those of the cables. @throws Rejected naming the leg and the key
+/// bodies the exit cones. Legs that state bodies state the same bodies of cables; and of what two of them both state,
+/// each body of a name is the same one in the same list, each class of which both have bodies has the same clearance or
+/// none, and of each pair that both have all that is stated of it is the same.
+/// @throws Rejected naming the leg and the key
 void require_one_machine(const LegsCertificate& certificate);
 
 /// Each leg but the first begins at the pose at which the one before it ends. @pre require_one_machine(), and no space

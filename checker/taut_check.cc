@@ -100,13 +100,18 @@ struct Arguments {
 
 /// Looks for meshes in the folder that is named, else in those of the case, if one is given, and beside the
 /// certificate.
-MeshSupplier meshes_of(const Arguments& arguments, const Case* the_case) {
+MeshSupplier meshes_of(const Arguments& arguments, const CaseOfLegs* of) {
   std::vector<std::filesystem::path> folders;
   if (!arguments.meshes.empty()) {
     folders.emplace_back(arguments.meshes);
   } else {
-    if (the_case != nullptr && the_case->bodies) {
-      for (const MeshOfBody& mesh : the_case->bodies->meshes) folders.push_back(mesh.path.parent_path());
+    const auto add = [&](const Case& the_case) {
+      if (!the_case.bodies) return;
+      for (const MeshOfBody& mesh : the_case.bodies->meshes) folders.push_back(mesh.path.parent_path());
+    };
+    if (of != nullptr) {
+      add(of->whole);
+      for (const CaseLeg& leg : of->legs) add(leg.content);
     }
     folders.push_back(std::filesystem::path(arguments.certificate_path).parent_path());
   }
@@ -175,7 +180,7 @@ CheckedFile check_file(const Arguments& arguments) {
     }
     const CaseOfLegs the_case = load_case_of_legs(arguments.case_path);
     const taut::Problem& problem = the_case.whole.problem;
-    options.meshes = meshes_of(arguments, &the_case.whole);
+    options.meshes = meshes_of(arguments, &the_case);
     const nlohmann::json of_case = problem_json(the_case);
     options.problem = &of_case;
     std::optional<ExpectedPath> path;

@@ -82,8 +82,12 @@ void announce(const Case& the_case, bool json) {
     before = std::string(before.size(), ' ');
   }
   if (the_case.problem.time) print_wrapped(time_limits_text(*the_case.problem.time, DisplayUnits(the_case.units)));
+  print_bodies(the_case);
+}
+
+void print_bodies(const Case& the_case) {
   if (!the_case.bodies) return;
-  before = "Bodies: ";
+  std::string before = "Bodies: ";
   for (const std::string& line : lines(bodies_statement(*the_case.bodies))) {
     print_wrapped(before + sanitize(line), before.front() == ' ' ? 0 : before.size());
     before = std::string(before.size(), ' ');

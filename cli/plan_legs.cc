@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/legs.h"
+#include "app/meshes.h"
 #include "app/report.h"
 #include "base/files.h"
 #include "base/input_error.h"
@@ -23,6 +24,7 @@
 #include "problem/scalar.h"
 #include "reports/page/html_report.h"
 #include "reports/summary/display_units.h"
+#include "reports/summary/headroom_of_legs.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/summary.h"
 
@@ -109,6 +111,14 @@ json least_margins(const PlannedLegs& planned) {
   return result;
 }
 
+std::vector<LegHeadroom> headroom_of(const std::vector<LegOutcome>& legs) {
+  std::vector<LegHeadroom> result;
+  for (const LegOutcome& leg : legs) {
+    result.push_back({leg.name, leg.planned.planned.headroom, leg.the_case.problem});
+  }
+  return result;
+}
+
 json json_of(const CaseOfLegs& the_case, const PlannedLegs& planned, const std::vector<LegOutcome>& legs,
              const fs::path& out) {
   const bool is_proved = exit_code(planned.checked) == kProvedExit;
@@ -121,6 +131,7 @@ json json_of(const CaseOfLegs& the_case, const PlannedLegs& planned, const std::
                  {"warnings", the_case.whole.warnings},
                  {"messages", messages_json({is_proved ? "" : sentence_of_all(the_case, planned)})},
                  {"out", out.string()},
+                 {"headroom", headroom_json(headroom_of(legs))},
                  {"legs", json::array()}};
   double length = 0, angle = 0, cost = 0;
   int charts = 0;
@@ -155,11 +166,17 @@ void print(const CaseOfLegs& the_case, const PlannedLegs& planned, const std::ve
     const Summary shown(leg.context, options);
     fmt::print("\nLeg {} of {}, {}\n", k + 1, legs.size(), leg.name);
     for (const std::string& line : brief_lines(load_statement(leg.the_case))) print_wrapped("Load: " + sanitize(line));
+    print_bodies(leg.the_case);
     print_verdict(verdict_in_full(shown), said(leg.the_case, leg.planned.planned).text);
     print_key_numbers(shown.key_numbers);
     print_remarks(leg.the_case, leg.outcome);
   }
   fmt::print("\n");
+  if (planned.checked.outcome != checker::Outcome::kUnchecked) {
+    for (const std::string& line : headroom_sentences(headroom_of(legs), DisplayUnits(the_case.whole.units))) {
+      print_wrapped(sanitize(line));
+    }
+  }
   print_wrapped(sentence(planned.checked));
 }
 
@@ -220,6 +237,9 @@ int run_plan_of_legs(const CaseOfLegs& the_case, const PlanArguments& arguments,
     for (const fs::path& file : outdated_results(folder, inputs)) remove_first.push_back(file);
     if (arguments.no_report) remove_first.push_back(folder / "report.html");
     std::vector<FileContent> of_leg = {{folder / "certificate.json", leg.planned.text}};
+    for (auto& [name, bytes] : mesh_files(the_case.legs[k].content)) {
+      of_leg.push_back({folder / name, std::move(bytes)});
+    }
     if (!arguments.no_report) {
       of_leg.push_back({folder / "report.html", html_report(legs.back().context, report_options)});
     }
@@ -231,6 +251,7 @@ int run_plan_of_legs(const CaseOfLegs& the_case, const PlanArguments& arguments,
     }
   }
   files.push_back({out / "certificate.json", planned.text});
+  for (auto& [name, bytes] : mesh_files(the_case.legs)) files.push_back({out / name, std::move(bytes)});
   if (!arguments.no_report) files.push_back({out / "report.html", html_report(planned.checked, report_options)});
   add_tables_of_all(the_case, planned, out, files);
   write_whole(files, remove_first);

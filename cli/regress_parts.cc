@@ -33,11 +33,15 @@ std::string file_digest(const std::filesystem::path& file) {
 json case_digest(const std::string& name, const std::filesystem::path& file) {
   json digest = {sanitize(name), file_digest(file)};  // a name need not be text
   try {
-    const Case declared = load_case_of_legs(file.string()).whole;
+    const CaseOfLegs of = load_case_of_legs(file.string());
+    const Case& declared = of.whole;
     if (declared.audit) digest.push_back(file_digest(file.parent_path() / declared.audit->file));
-    if (declared.bodies) {
-      for (const MeshOfBody& mesh : declared.bodies->meshes) digest.push_back(mesh.mesh->sha256);
-    }
+    const auto add_meshes = [&](const Case& the_case) {
+      if (!the_case.bodies) return;
+      for (const MeshOfBody& mesh : the_case.bodies->meshes) digest.push_back(mesh.mesh->sha256);
+    };
+    add_meshes(declared);
+    for (const CaseLeg& leg : of.legs) add_meshes(leg.content);
   } catch (const InputError&) {
     // its run says what is wrong with it
   }

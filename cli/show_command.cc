@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/sanitize.h"
-#include "case/case_file.h"
+#include "case/case_of_legs.h"
 #include "cli/console.h"
 #include "cli/output.h"
 #include "reports/page/robot_drawing.h"
@@ -18,7 +20,8 @@ namespace taut {
 
 void add_show_options(CLI::App& command, ShowArguments& arguments) {
   command.add_option("CASE", arguments.case_path, "case file (docs/case-format.md)")->required();
-  command.add_option("--out", arguments.out, "draw the robot at the first waypoint into this SVG file");
+  command.add_option("--out", arguments.out,
+                     "draw the robot at the first waypoint, of the first leg, into this SVG file");
   command.add_flag("--json", arguments.json, "print it as JSON, in SI units");
 }
 
@@ -28,16 +31,20 @@ int run_show(const ShowArguments& arguments) {
                      fmt::format("--out: got '{}', expected a file that ends in .svg", excerpt(arguments.out)));
   }
   if (!arguments.out.empty()) require_another(arguments.out, arguments.case_path);
-  const Case case_ = load_case(arguments.case_path);
-  for (const std::string& warning : case_.warnings) complain("warning: " + warning);
-  const CaseSummary summary(case_);
-  if (!arguments.out.empty()) write_whole({{arguments.out, robot_drawing(summary)}});
+  const CaseOfLegs the_case = load_case_of_legs(arguments.case_path);
+  for (const std::string& warning : the_case.whole.warnings) complain("warning: " + warning);
+  std::vector<CaseSummary> summaries;
+  summaries.reserve(std::max(the_case.legs.size(), std::size_t{1}));
+  for (const CaseLeg& leg : the_case.legs) summaries.emplace_back(leg.content);
+  if (the_case.legs.empty()) summaries.emplace_back(the_case.whole);
+  const bool has_legs = !the_case.legs.empty();
+  if (!arguments.out.empty()) write_whole({{arguments.out, robot_drawing(summaries.front())}});
   if (arguments.json) {
-    nlohmann::json document = to_json(summary);
+    nlohmann::json document = has_legs ? to_json(the_case, summaries) : to_json(summaries.front());
     document["command"] = "show";
     print_json(document);
   } else {
-    fmt::print("{}", sanitize_lines(to_text(summary)));
+    fmt::print("{}", sanitize_lines(has_legs ? to_text(the_case, summaries) : to_text(summaries.front())));
     if (!arguments.out.empty()) fmt::print("\nWritten: {}\n", sanitize(arguments.out));
   }
   return kProvedExit;

@@ -173,8 +173,11 @@ inline constexpr const char* kUndecidedClaim =
 inline constexpr const char* kLegsProvedClaim =
     " legs, which follow one another in the order of the certificate. What the certificate of each leg claims of its "
     "path is proved, with the load and the bodies that the leg's own problem states; these may differ from leg to leg. "
-    "Robot, limits, tolerances, gravity, load point, space, cables' bodies and limits in time are the same in all "
-    "legs. The path of each leg but the first begins at the very pose at which the path of the one before it ends.";
+    "Robot, limits, tolerances, gravity, load point, space, exit cones and limits in time are the same in all legs. "
+    "Legs that state bodies state the same bodies of cables. A body that two legs state under one name is the same one "
+    "in both, of the platform or an obstacle at one place, and clearances and contacts of any two such bodies are the "
+    "same in both. The path of each leg but the first begins at the very pose at which the path of the one before it "
+    "ends.";
 
 /// Follows it where the legs are moves.
 inline constexpr const char* kLegsOfMovesClause =
@@ -187,7 +190,8 @@ inline constexpr const char* kLegsOfPathsClause =
 /// Ends it.
 inline constexpr const char* kBetweenLegsClause =
     " Between two legs the platform is to rest at that pose. Nothing is claimed of how a load or a body is taken or "
-    "put down there, of what the platform carries while that is done, or of how long it takes.";
+    "put down there, of what the platform carries while that is done, or of how long it takes; nor that a body that "
+    "one leg carries stands where the obstacles of another leg say.";
 
 /// After the number of the leg, and that of all: legs_refuted_claim().
 inline constexpr const char* kLegsRefutedClaim =

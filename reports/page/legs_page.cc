@@ -2,14 +2,18 @@
 #include "reports/page/legs_page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "reports/page/document.h"
 #include "reports/page/first_page.h"
 #include "reports/page/markup.h"
+#include "reports/summary/headroom_of_legs.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/scene.h"
 #include "reports/summary/summary.h"
@@ -89,30 +93,101 @@ bool is_folder_name(const std::string& name) {
   });
 }
 
+bool have_bodies(const std::vector<LegOnPage>& legs) {
+  return std::ranges::any_of(legs,
+                             [](const LegOnPage& leg) { return leg.scene.certificate.problem.bodies.has_value(); });
+}
+
+/// The names of a leg's bodies; the leg's own report says what they are.
+Html bodies_of(const std::optional<BodiesText>& bodies) {
+  if (!bodies) return html("none: collisions are not covered");
+  const auto names = [](const std::vector<BodyText>& list) {
+    std::vector<std::string> result;
+    for (const BodyText& body : list) result.push_back(body.name);
+    return result;
+  };
+  std::vector<std::string> parts;
+  if (!bodies->platform.empty()) {
+    parts.push_back(fmt::format("on the platform: {}", fmt::join(names(bodies->platform), ", ")));
+  }
+  if (!bodies->obstacles.empty()) {
+    parts.push_back(fmt::format("obstacles: {}", fmt::join(names(bodies->obstacles), ", ")));
+  }
+  if (parts.empty()) parts.emplace_back("cables alone");
+  Html lines;
+  for (const std::string& part : parts) lines += html("{}<bdi>{}</bdi>", lines.empty() ? Html() : html("<br>"), part);
+  return lines;
+}
+
 Html table_of_legs(const std::vector<LegOnPage>& legs) {
+  const bool has_bodies = have_bodies(legs);
+  std::vector<Column> head = {{html("Leg")}, {html("Verdict")}, {html("Load")}};
+  if (has_bodies) head.push_back({html("Bodies")});
+  head.push_back({html("Duration"), true});
+  head.push_back({html("Key numbers")});
   std::vector<std::vector<Html>> rows;
   for (std::size_t k = 0; k < legs.size(); ++k) {
     const Certificate& certificate = legs[k].scene.certificate;
     const std::vector<std::string> load = brief_lines(load_statement(certificate.problem));
     const auto& timing = certificate.path.timing;
     const Html leg = html("<bdi>{} {}</bdi>", k + 1, legs[k].name);
-    rows.push_back(
-        {is_folder_name(legs[k].name) ? html("<a href=\"{}-{}/report.html\">{}</a>", k + 1, legs[k].name, leg) : leg,
-         html("{}", verdict_in_full(legs[k].summary)), html("<bdi>{}</bdi>", load.empty() ? "" : load.front()),
-         timing ? html("{}", fmt::format("{:.4g} s", timing->duration_s())) : html("–"), numbers_of(legs[k].summary)});
+    std::vector<Html> row = {
+        is_folder_name(legs[k].name) ? html("<a href=\"{}-{}/report.html\">{}</a>", k + 1, legs[k].name, leg) : leg,
+        html("{}", verdict_in_full(legs[k].summary)), html("<bdi>{}</bdi>", load.empty() ? "" : load.front())};
+    if (has_bodies) row.push_back(bodies_of(certificate.problem.bodies));
+    row.push_back(timing ? html("{}", fmt::format("{:.4g} s", timing->duration_s())) : html("–"));
+    row.push_back(numbers_of(legs[k].summary));
+    rows.push_back(std::move(row));
   }
-  return table(html("Legs"),
-               {{html("Leg")}, {html("Verdict")}, {html("Load")}, {html("Duration"), true}, {html("Key numbers")}},
-               rows);
+  return table(html("Legs"), head, rows);
 }
 
-Html uncovered_of_legs(const Summary& first) {
+/// What some leg does not cover, each once; where others do, with the legs that do not.
+Html uncovered_of_legs(const std::vector<LegOnPage>& legs) {
   Html items = html(
       "<li>taking a load and putting it down between two legs, what the machine carries meanwhile, and how long it "
       "takes</li>");
-  for (const ScopeItem& item : first.not_covered) items += html("<li>{}</li>", item.brief);
+  if (have_bodies(legs))
+    items += html("<li>whether what one leg carries stands where the obstacles of others say</li>");
+  std::vector<std::pair<std::string, std::vector<std::string>>> found;  // what, and the names of the legs
+  for (const LegOnPage& leg : legs) {
+    for (const ScopeItem& item : leg.summary.not_covered) {
+      auto at = std::ranges::find(found, item.brief, [](const auto& entry) { return entry.first; });
+      if (at == found.end()) at = found.insert(found.end(), {item.brief, {}});
+      at->second.push_back(leg.name);
+    }
+  }
+  for (const auto& [what, names] : found) {
+    items += names.size() == legs.size()
+                 ? html("<li>{}</li>", what)
+                 : html("<li>{} (<bdi>{}</bdi>)</li>", what, fmt::format("{}", fmt::join(names, ", ")));
+  }
   return html("<ul>{}</ul>\n<p>The reports of the legs say in full what each verdict assumes and leaves out.</p>\n",
               items);
+}
+
+std::vector<LegHeadroom> headroom_of(const std::vector<LegOnPage>& legs) {
+  std::vector<LegHeadroom> result;
+  for (const LegOnPage& leg : legs) {
+    result.push_back({leg.name, leg.scene.illustration.headroom, leg.scene.certificate.problem});
+  }
+  return result;
+}
+
+Html headroom(const std::vector<LegOnPage>& legs) {
+  const auto is_unchecked = [](const LegOnPage& leg) {
+    return leg.scene.recheck.result == Recheck::Result::kUnchecked;
+  };
+  if (std::ranges::any_of(legs, is_unchecked)) return {};
+  Html body;
+  for (const std::string& sentence : headroom_sentences(headroom_of(legs), legs.front().scene.illustration.units)) {
+    body += html("<p><bdi>{}</bdi></p>\n", sentence);
+  }
+  if (body.empty()) return {};
+  return section(
+      "headroom", "How far the proofs reach",
+      body + html("<p class=\"note\">The program that wrote the certificates of the legs proved these shares. "
+                  "They are no part of the claim, and nothing has checked them.</p>\n"));
 }
 
 Html claim(const checker::CheckResult& checked) {
@@ -141,8 +216,8 @@ std::string legs_page(const checker::CheckResult& checked, const ReportOptions& 
   const Html body = html("<header class=\"first\">\n{}<h1><bdi>{}</bdi></h1>\n{}{}</header>\n",
                          masthead(document, options.revision, options.date), first.title, title_note(),
                          band(word, headline(word, legs))) +
-                    section("legs", "Legs", table_of_legs(legs)) +
-                    section("assumptions", "What this verdict says nothing about", uncovered_of_legs(first)) +
+                    section("legs", "Legs", table_of_legs(legs)) + headroom(legs) +
+                    section("assumptions", "What this verdict says nothing about", uncovered_of_legs(legs)) +
                     claim(checked) + check_again(checked);
   return html_document({.window_title = "Report of legs: " + word.text,
                         .title = first.title,

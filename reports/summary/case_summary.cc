@@ -200,6 +200,9 @@ std::string bodies_text(const CaseSummary& summary, const WaypointSummary& waypo
 }
 
 const char* law_text(const Case& the_case) {
+  if (the_case.audit && the_case.audit->timed) {
+    return "a cubic spline of time, which is fitted to the rows of a table; of a certificate its own path";
+  }
   if (the_case.audit && !the_case.audit->interpolation.empty()) return the_case.audit->interpolation.c_str();
   if (the_case.problem.query.empty()) return "as the audited file suggests";
   return the_case.planner.smoothing == Smoothing::kSpline
@@ -230,38 +233,89 @@ CaseSummary::CaseSummary(const Case& the_case) : source(the_case), sampler(the_c
   }
 }
 
-std::string to_text(const CaseSummary& summary) {
-  const Problem& problem = summary.source.problem;
-  const DisplayUnits units(summary.source.units);
-  std::string text = fmt::format(
+namespace {
+
+/// Which move limits in time are about.
+const char* time_subject(const Case& the_case) {
+  const bool is_timed = the_case.audit && the_case.audit->timed;
+  if (!the_case.audit || (!is_timed && !the_case.problem.query.empty())) {
+    return "the move between the waypoints; at these the platform is at rest";
+  }
+  return is_timed ? "the move of the audited file, with its times; it begins and ends at rest"
+                  : "moves; this case's audit is of a path at rest, to which they do not apply";
+}
+
+std::string head_text(const Problem& problem, const DisplayUnits& units) {
+  return fmt::format(
       "{}, as it was understood. Nothing is proved here.\n"
       "Lengths in {}, forces in {} and moments in {}. Numbers of the case are exact, computed ones floating point.\n\n",
       problem.name, units.length.name(), units.force.name(), units.moment.name());
-  text += document_text(summary.source.document_fields);
-  text += robot_text(problem.robot, units) + "\n";
-  text += "Load\n";
+}
+
+std::string load_text(const CaseSummary& summary, const DisplayUnits& units) {
+  std::string text = "Load\n";
   for (const std::string& line : lines(load_statement(summary.source))) text += "  " + line + "\n";
-  text += axes_text(summary.sampler.model(), units) + "\n";
-  text += fmt::format("Tolerances\n  {}\n\n", tolerances_text(problem.tolerances, units));
-  if (summary.source.bodies) {
-    text += "Bodies that may not touch\n";
-    for (const std::string& line : lines(bodies_statement(*summary.source.bodies))) text += "  " + line + "\n";
-    text += "\n";
+  return text + axes_text(summary.sampler.model(), units) + "\n";
+}
+
+std::string tolerances_section(const Problem& problem, const DisplayUnits& units) {
+  return fmt::format("Tolerances\n  {}\n\n", tolerances_text(problem.tolerances, units));
+}
+
+std::string stated_bodies_text(const Case& the_case) {
+  if (!the_case.bodies) return "";
+  std::string text = "Bodies that may not touch\n";
+  for (const std::string& line : lines(bodies_statement(*the_case.bodies))) text += "  " + line + "\n";
+  return text + "\n";
+}
+
+/// @param what  rests or moves: "the move between the waypoints; at these the platform is at rest"
+std::string time_text(const Case& the_case, const DisplayUnits& units, const char* what) {
+  if (!the_case.problem.time) return "";
+  std::string text = fmt::format("Time (of {})\n", what);
+  text += "  " + time_limits_text(*the_case.problem.time, units) + "\n";
+  if (the_case.audit) return text + "\n";
+  if (const double jerk = the_case.move.jerk_m_s3; std::isfinite(jerk)) {
+    text += fmt::format("  Planned with a jerk of the load point of at most {:.6g} {}/s³; that is not proved.\n",
+                        units.length.approx(jerk), units.length.name());
   }
-  text += space_text(problem.space) + "\n";
-  if (problem.time) {
-    text += "Time (of the move between the waypoints; at these the platform is at rest)\n";
-    text += "  " + time_limits_text(*problem.time, units) + "\n";
-    if (const double jerk = summary.source.move.jerk_m_s3; std::isfinite(jerk)) {
-      text += fmt::format("  Planned with a jerk of the load point of at most {:.6g} {}/s³; that is not proved.\n",
-                          units.length.approx(jerk), units.length.name());
-    }
-    text += fmt::format("  Tables have {:.6g} rows a second.\n\n", summary.source.move.rate_Hz);
-  }
-  text += fmt::format("Path between waypoints: {}\n", law_text(summary.source));
-  if (summary.waypoints.empty()) return text + "No query: a case for taut audit.\n";
+  return text + fmt::format("  Tables have {:.6g} rows a second.\n\n", the_case.move.rate_Hz);
+}
+
+std::string waypoints_text(const CaseSummary& summary, const DisplayUnits& units) {
+  std::string text;
   for (std::size_t k = 0; k < summary.waypoints.size(); ++k) {
     text += "\n" + waypoint_text(summary, k, units) + bodies_text(summary, summary.waypoints[k], units.length);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const CaseSummary& summary) {
+  const Problem& problem = summary.source.problem;
+  const DisplayUnits units(summary.source.units);
+  std::string text = head_text(problem, units) + document_text(summary.source.document_fields) +
+                     robot_text(problem.robot, units) + "\n" + load_text(summary, units) +
+                     tolerances_section(problem, units) + stated_bodies_text(summary.source) +
+                     space_text(problem.space) + "\n" + time_text(summary.source, units, time_subject(summary.source)) +
+                     fmt::format("Path between waypoints: {}\n", law_text(summary.source));
+  if (summary.waypoints.empty()) return text + "No query: a case for taut audit.\n";
+  return text + waypoints_text(summary, units);
+}
+
+std::string to_text(const CaseOfLegs& the_case, std::span<const CaseSummary> legs) {
+  const Case& whole = the_case.whole;
+  const DisplayUnits units(whole.units);
+  std::string text = head_text(whole.problem, units) + document_text(whole.document_fields) +
+                     robot_text(whole.problem.robot, units) + "\n" + tolerances_section(whole.problem, units) +
+                     space_text(whole.problem.space) + "\n" +
+                     time_text(whole, units, "each leg; at all waypoints the platform is at rest") +
+                     fmt::format("Path between waypoints: {}\n", law_text(legs.front().source));
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    text += fmt::format("\nLeg {} of {}, {}\n\n", k + 1, legs.size(), the_case.legs[k].name) +
+            load_text(legs[k], units) + stated_bodies_text(legs[k].source);
+    text += waypoints_text(legs[k], units).substr(1);  // without a second empty line
   }
   return text;
 }
@@ -320,6 +374,14 @@ nlohmann::json to_json(const CaseSummary& summary) {
           {"warnings", summary.source.warnings},
           {"path_law", law_text(summary.source)},
           {"waypoints", waypoints}};
+}
+
+nlohmann::json to_json(const CaseOfLegs& the_case, std::span<const CaseSummary> legs) {
+  nlohmann::json result = {{"legs", nlohmann::json::array()}, {"warnings", the_case.whole.warnings}};
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    result["legs"].push_back({{"name", the_case.legs[k].name}, {"case", to_json(legs[k])}});
+  }
+  return result;
 }
 
 }  // namespace taut

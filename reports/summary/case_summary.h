@@ -6,10 +6,11 @@
 #include <array>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "case/case_file.h"
+#include "case/case_of_legs.h"
 #include "kinematics/pose_sampler.h"
 #include "reports/summary/body_distances.h"
 
@@ -43,7 +44,12 @@ struct CaseSummary {
 
 /// The summary as text for people; lengths are in the case's own unit.
 [[nodiscard]] std::string to_text(const CaseSummary& summary);
+/// The same of a case of legs: what is one for all, then of each leg its load, its bodies and its waypoints.
+/// @pre the legs are those of the case, in their order
+[[nodiscard]] std::string to_text(const CaseOfLegs& the_case, std::span<const CaseSummary> legs);
 /// The summary for programs: `problem` exactly as in a certificate (SI), and `waypoints` in floating point.
 [[nodiscard]] nlohmann::json to_json(const CaseSummary& summary);
+/// Of a case of legs `legs`, of each its `name` and as `case` the summary of it. @pre as to_text()
+[[nodiscard]] nlohmann::json to_json(const CaseOfLegs& the_case, std::span<const CaseSummary> legs);
 
 }  // namespace taut

@@ -1333,7 +1333,7 @@ def moves():
 # ---- legs -----------------------------------------------------------------------------------------------------------
 
 def legs():
-    """Paths and moves that follow one another, each with a load of its own."""
+    """Paths and moves that follow one another, each with a load and bodies of its own."""
     a, m, b = [-2.3, 1.6], [-2.26, 1.57], [-2.2, 1.55]
     typed = lambda *points: [[str(x) for x in p] for p in points]
     heavy = (ROBOT1[0], dict(ROBOT1[1], wrench=['0', '0', '1.02', '0', '0', '0']))
@@ -1343,6 +1343,19 @@ def legs():
                            spline(waypoint(b), waypoint(m)))
     yield 'leg_back', proved(problem('robot1-legs, leg back', ROBOT1, SLICE, typed(m, a)),
                              straight(waypoint(m), waypoint(a)))
+
+    # A tool is on the platform, and then lies on the ground.
+    middle = [-2.25, 1.575]
+    there = with_bodies(problem('robot1-with-bodies, leg there', ROBOT1, SLICE, typed(a, b)))
+    yield 'leg_with_tool', clear(proved(there, straight(*map(waypoint, (a, middle, b))), below=0.98))
+    laid = {'name': 'tool on the ground', 'at_m': ['0.25', '-0.3', '0'],
+            'hull': {'points_m': corners('0.02', '0.01', '0.03'), 'radius_m': '0'}}
+    back = with_bodies(problem('robot1-with-bodies, leg back', ROBOT1, SLICE, typed(b, a)),
+                       platform=BODIES['platform'][:1], obstacles=BODIES['obstacles'][:2] + [laid],
+                       pair_clearances_m=BODIES['pair_clearances_m'][:1])
+    yield 'leg_without_tool', clear(proved(back, straight(*map(waypoint, (b, middle, a))), below=0.98))
+    yield 'leg_without_bodies', proved(problem('robot1-with-bodies, leg back', ROBOT1, SLICE, typed(b, a)),
+                                       straight(waypoint(b), waypoint(a)))
 
     there, back = [0.0, 0.0, 0.3, 0.1, 0.05, 0.0], [0.015, -0.01, 0.3, 0.2, 0.1, 0.15]
     limits = {'load_speed_m_s': '0.1', 'load_angular_speed_rad_s': '0.5', 'winch_speed_m_s': ['0.2'] * 6}

@@ -208,6 +208,11 @@ TEST(Mutation, OfLegsThatMeetOnOneMachineNothingMayDiffer) {
     EXPECT_EQ(accepted_mutants(accepted("legs"), of_leg), std::set<std::string>{}) << of_leg;
   }
   EXPECT_EQ(accepted_mutants(accepted("legs_of_moves"), "/legs/1/problem/time"), std::set<std::string>{});
+  for (const char* of_bodies :
+       {"cables", "clearance_m", "obstacles/0/at_m", "obstacles/0/half_space", "pair_clearances_m/0"}) {
+    const std::string root = std::string("/legs/1/problem/bodies/") + of_bodies;
+    EXPECT_EQ(accepted_mutants(accepted("legs_with_bodies"), root), std::set<std::string>{}) << root;
+  }
 }
 
 TEST(Mutation, OfBodiesOnlyTrueStatementsPass) {

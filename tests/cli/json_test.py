@@ -71,6 +71,7 @@ class Json(InFolder):
         planned = self.printed(TAUT, "plan", case, "--out", self.path("legs"), "--no-report", code=0,
                                form="plan_of_legs")
         self.assertEqual([leg["name"] for leg in planned["legs"]], ["fetch", "carry", "return"])
+        self.printed(TAUT, "show", case, code=0, form="show_of_legs")
         checked = self.printed(CHECK, self.path("legs", "certificate.json"), case, code=0)
         self.assertEqual([leg["verdict"] for leg in checked["legs"]], ["proved"] * 3)
         self.printed(TAUT, "plan", case, "--out", self.path("legs"), "--no-report", "--budget", "1e-9", code=2,

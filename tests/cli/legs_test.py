@@ -38,6 +38,19 @@ query:
 planner: {strategy: astar, cost: parameters}
 expect: proved
 """
+BODIES = """bodies:
+  clearance: 5
+  platform:
+    - {name: payload, ball: {radius: 10, at: [0, 0, 40]}, legs: [carry]}
+    - {name: plate, ball: {radius: 20}}
+  obstacles:
+    - {name: payload before, ball: {radius: 10, at: [0, 150, 330]}, legs: [fetch]}
+    - {name: mast, capsule: {from: [-300, 300, 0], to: [-300, 300, 900], radius: 30}}
+    - {name: block, mesh: block.obj, unit: mm, at: [PLACE, 0, 350], legs: [return]}
+"""
+BLOCK = "".join(f"v {x} {y} {z}\n" for x in (0, 20) for y in (0, 20) for z in (0, 20)) + "".join(
+    f"f {a} {b} {c}\nf {a} {c} {d}\n" for a, b, c, d in
+    ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)))
 FOLDERS = ("1-fetch", "2-carry", "3-return")
 
 
@@ -109,8 +122,7 @@ class Legs(InFolder):
         self.plan("--no-report")
         whole = self.path("out", "certificate.json")
         csv_file = self.path("out", "1-fetch", "path.csv")
-        for command in (("audit", self.case, csv_file), ("map", self.case), ("sensitivity", self.case),
-                        ("show", self.case)):
+        for command in (("audit", self.case, csv_file), ("map", self.case), ("sensitivity", self.case)):
             said = run(TAUT, *command)
             self.assertEqual(said.returncode, 3, command)
             self.assertIn("query.legs: got legs", said.stderr, command)
@@ -144,6 +156,67 @@ class Legs(InFolder):
         self.assertIn("UNCHECKED", page)
         self.assertNotIn("PROVED", page)
         self.assertNotIn("are proved", page)
+
+    def test_bodies_are_there_in_their_legs(self):
+        self.write("block.obj", BLOCK)
+        case = self.write("bodies.yaml", ROBOT.replace("PAYLOAD", "10 g") + BODIES.replace("PLACE", "200"))
+        said = " ".join(self.plan(case=case).split())
+        self.assertIn("'payload before', obstacle", said)
+        whole = self.path("out", "certificate.json")
+        self.assertIn("proved again: 3 legs", self.check(whole, case))
+        self.assertIn("proved again: 3 legs", self.check(whole))
+        names = [[[body["name"] for body in leg["problem"]["bodies"][kind]] for kind in ("platform", "obstacles")]
+                 for leg in self.certificate("out")["legs"]]
+        self.assertEqual(names, [[["plate"], ["payload before", "mast"]], [["payload", "plate"], ["mast"]],
+                                 [["plate"], ["mast", "block"]]])
+        self.assertTrue(os.path.exists(self.path("out", "block.obj")))
+        self.assertEqual([os.path.exists(self.path("out", folder, "block.obj")) for folder in FOLDERS],
+                         [False, False, True])
+        page = text_of(self.path("out", "report.html"))
+        for expected in ("obstacles: payload before, mast", "on the platform: payload, plate",
+                         "whether what one leg carries stands where"):
+            self.assertIn(expected, page)
+        again = self.path("again.html")
+        said = run(TAUT, "report", whole, "--out", again)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertEqual(text_of(again), page)
+        # In the way of the platform, but only on the last leg.
+        case = self.write("bodies.yaml", ROBOT.replace("PAYLOAD", "10 g") + BODIES.replace("PLACE", "-10"))
+        said = " ".join(self.plan(case=case, code=1).split())
+        self.assertIn("leg 3 of 3, return:", said)
+
+    def test_a_share_is_provable_in_all_legs(self):
+        said = run(TAUT, "plan", self.case, "--out", self.path("out"))
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        self.assertRegex(" ".join(said.stdout.split()), "All legs are provable at [0-9.]+ % of all tolerances")
+        self.assertIn("All legs are provable at", text_of(self.path("out", "report.html")))
+        found = json.loads(run(TAUT, "plan", self.case, "--out", self.path("out"), "--json").stdout)
+        of = lambda shares: {(share["of"], share["item"]): float(share["share"]) for share in shares}
+        legs = {leg["name"]: of(leg["plan"]["headroom"]["shares"]) for leg in found["legs"]}
+        shares = found["headroom"]["shares"]
+        self.assertEqual(shares[0]["of"], "all")
+        for share in shares:
+            key = share["of"], share["item"]
+            self.assertEqual(float(share["share"]), legs[share["leg"]][key])
+            self.assertEqual(float(share["share"]), min(leg[key] for leg in legs.values() if key in leg))
+        self.assertEqual(json.loads(self.plan("--json"))["headroom"], None)
+
+    def test_show_says_each_leg(self):
+        case = self.write("bodies.yaml", ROBOT.replace("PAYLOAD", "10 g") + BODIES.replace("PLACE", "200"))
+        self.write("block.obj", BLOCK)
+        said = run(TAUT, "show", case, "--out", self.path("legs.svg"))
+        self.assertEqual((said.returncode, said.stderr), (0, ""))
+        fetch, carry, back = (said.stdout.split("\nLeg ")[k] for k in (1, 2, 3))
+        self.assertTrue(fetch.startswith("1 of 3, fetch\n"))
+        self.assertIn("'payload before'", fetch)
+        self.assertNotIn("'payload before'", carry)
+        self.assertIn("Waypoint 1: pz = 0.34\n", carry)
+        self.assertIn("'block'", back)
+        self.assertEqual(said.stdout.count("Robot (a in the world frame"), 1)
+        self.assertIn("<svg", text_of(self.path("legs.svg")))
+        shown = json.loads(run(TAUT, "show", case, "--json").stdout)
+        self.assertEqual([leg["name"] for leg in shown["legs"]], ["fetch", "carry", "return"])
+        self.assertEqual(len(shown["legs"][1]["case"]["waypoints"]), 2)
 
     def test_regress_knows_them(self):
         said = run(TAUT, "regress", self.case, "--json")

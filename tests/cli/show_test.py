@@ -57,6 +57,14 @@ class Show(unittest.TestCase):
                 apart = sum((x - y) ** 2 for x, y in zip(a, b)) ** 0.5
                 self.assertAlmostEqual(apart, pair["distance_m"], places=9)
 
+    def test_an_audit_in_time_is_not_called_a_planned_move(self):
+        said = run(TAUT, "show", os.path.join(CASES, "moves", "portal-20t-table.yaml"))
+        self.assertEqual((said.returncode, said.stderr), (0, ""))
+        self.assertIn("Path between waypoints: a cubic spline of time, which is fitted to the rows", said.stdout)
+        self.assertIn("Time (of the move of the audited file, with its times", said.stdout)
+        for wrong in ("as the audited file suggests", "Planned with a jerk", "the move between the waypoints"):
+            self.assertNotIn(wrong, said.stdout)
+
     def test_a_start_in_contact_is_named_with_the_pair_and_the_depth(self):
         with open(os.path.join(CASES, "cranes", "portal-20t-stack.yaml"), encoding="utf-8") as file:
             text = file.read()

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "base/input_error.h"
@@ -151,17 +152,130 @@ TEST(CaseLegs, WithoutAnyMassHaveNoMoves) {
 }
 
 TEST(CaseLegs, DoNotGoWithWhatHasNoLegsYet) {
-  for (const char* tail : {"bodies: {clearance: 1}\n", "audit: {path: a.csv}\n"}) {
-    Sections s;
-    s.tail += tail;
-    expect_error(s, "24:", "beside 'query.legs', expected none");
-  }
   Sections s;
+  s.tail += "audit: {path: a.csv}\n";
+  expect_error(s, "24:", "beside 'query.legs', expected none");
+  s = {};
   s.space = "space: {slice: {py: 0, phi: 0, theta: 0, sigma: 0}, implicit: [px]}\n\n\n";
   expect_error(s, "15:", "got constraints beside 'query.legs'");
   s = {};
   s.tail += "query: {waypoints: []}\n";
   EXPECT_THROW((void)parse(s), InputError);
+}
+
+// ---- Bodies ---------------------------------------------------------------------------------------------------------
+
+/// Bodies begin on line 24, those of the platform on line 30, obstacles on line 33.
+struct BodySections : Sections {
+  std::string clearance = "  clearance: {default: 200 mm, cables-cables: 20 mm}\n";
+  std::string more = "  pairs: [platform-obstacles, cables-obstacles, cables-cables]\n\n";
+  std::string platform =
+      "    - {name: spreader, box: [2, 2, 1], legs: [fetch, return]}\n"
+      "    - {name: crate, box: [2, 2, 2], legs: [carry]}\n";
+  std::string obstacles =
+      "    - {name: floor, half_space: {point: [0, 0, 0], normal: [0, 0, 1]}}\n"
+      "    - {name: crate before, box: [2, 2, 2], at: [-4, 0, 1], legs: [fetch]}\n"
+      "    - {name: crate after, box: [2, 2, 2], at: [4, 0, 1], legs: [return]}\n";
+  std::string end =
+      "  contacts: [{pair: [crate, floor], at: [-4, 0, 6], within: 0.3, depth: 0.1}]\n"
+      "  pair_clearances: [{pair: [spreader, crate before], clearance: 0.1}, {pair: [crate, floor], clearance: 0.3}]\n";
+
+  [[nodiscard]] Sections whole() const {
+    Sections result = *this;
+    result.tail += "bodies:\n" + clearance + "  cables: {diameter: 0.02, free_ends: 0.3}\n" + more + "  platform:\n" +
+                   platform + "  obstacles:\n" + obstacles + end;
+    return result;
+  }
+};
+
+std::vector<std::string> names_of(const std::vector<BodyText>& bodies) {
+  std::vector<std::string> names;
+  for (const BodyText& body : bodies) names.push_back(body.name);
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(CaseLegs, HaveTheBodiesThatAreThere) {
+  const CaseOfLegs read = parse(BodySections().whole());
+  const auto bodies = [&](std::size_t k) { return read.legs.at(k).content.problem.bodies.value(); };
+  EXPECT_EQ(names_of(bodies(0).platform), Names{"spreader"});
+  EXPECT_EQ(names_of(bodies(0).obstacles), (Names{"floor", "crate before"}));
+  EXPECT_EQ(names_of(bodies(1).platform), Names{"crate"});
+  EXPECT_EQ(names_of(bodies(1).obstacles), Names{"floor"});
+  EXPECT_EQ(names_of(bodies(2).platform), Names{"spreader"});
+  EXPECT_EQ(names_of(bodies(2).obstacles), (Names{"floor", "crate after"}));
+  const auto zones = [&](std::size_t k) { return bodies(k).contacts.size(); };
+  EXPECT_EQ((std::array{zones(0), zones(1), zones(2)}), (std::array<std::size_t, 3>{0, 1, 0}));
+  const auto own = [&](std::size_t k) { return bodies(k).pair_clearances_m; };
+  ASSERT_EQ(own(0).size(), 1U);
+  EXPECT_EQ(own(0)[0].clearance_m, "0.1");
+  ASSERT_EQ(own(1).size(), 1U);
+  EXPECT_EQ(own(1)[0].clearance_m, "0.3");
+  EXPECT_TRUE(own(2).empty());
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(bodies(k).cables, bodies(0).cables);
+    EXPECT_EQ(bodies(k).clearance_m, bodies(0).clearance_m);
+  }
+}
+
+TEST(CaseLegs, CheckOnlyPairsThatAreThere) {
+  BodySections s;
+  s.platform = "    - {name: crate, box: [2, 2, 2], legs: [carry]}\n\n";
+  s.clearance = "  clearance: {platform-obstacles: 0.2, cables-obstacles: 0.3, cables-cables: 0.02}\n";
+  s.end = "";
+  for (const char* more : {"  pairs: [platform-obstacles, cables-obstacles, cables-cables]\n\n", "\n\n"}) {
+    s.more = more;
+    s.clearance = *more == '\n' ? "  clearance: {default: 0.3, platform-obstacles: 0.2}\n" : s.clearance;
+    const CaseOfLegs read = parse(s.whole());
+    const auto is_checked = [&](std::size_t k) {
+      return read.legs.at(k).content.problem.bodies->clearance_m[0].has_value();
+    };
+    EXPECT_EQ((std::array{is_checked(0), is_checked(1), is_checked(2)}), (std::array{false, true, false})) << more;
+    EXPECT_EQ(read.legs[1].content.problem.bodies->clearance_m[0], "0.2");
+    EXPECT_TRUE(read.legs[0].content.problem.bodies->clearance_m[1]);
+  }
+}
+
+TEST(CaseLegs, WithoutAnythingThatCouldTouchHaveNoBodies) {
+  BodySections s;
+  s.platform = "    - {name: crate, box: [2, 2, 2], legs: [carry]}\n\n";
+  s.end = "";
+  s.more = "  pairs: [platform-obstacles]\n\n";
+  s.clearance = "  clearance: {platform-obstacles: 0.2}\n";
+  const CaseOfLegs read = parse(s.whole());
+  EXPECT_FALSE(read.legs[0].content.problem.bodies);
+  EXPECT_FALSE(read.legs[0].content.bodies);
+  EXPECT_TRUE(read.legs[1].content.problem.bodies);
+  EXPECT_FALSE(read.legs[2].content.problem.bodies);
+  s.end = "  exit_cones: [{cable: 1, end: base, axis: [0, 0, -1], half_angle: 80 deg}]\n";
+  for (const CaseLeg& leg : parse(s.whole()).legs) {
+    EXPECT_EQ(leg.content.problem.bodies.value().exit_cones.size(), 1U) << leg.name;
+    EXPECT_EQ(leg.content.problem.bodies->clearance_m[0].has_value(), leg.name == "carry");
+  }
+}
+
+TEST(CaseLegs, WithWrongBodiesAreErrors) {
+  const auto replaced = [](std::string BodySections::*section, const std::string& old, const std::string& by) {
+    BodySections s;
+    std::string& text = s.*section;
+    text.replace(text.find(old), old.size(), by);
+    return s.whole();
+  };
+  expect_error(replaced(&BodySections::platform, "legs: [carry]", "legs: [fly]"),
+               "31:", "one of the legs fetch, carry");
+  expect_error(replaced(&BodySections::platform, "legs: [carry]", "legs: []"), "31:", "got a body of no leg");
+  expect_error(replaced(&BodySections::obstacles, "crate after", "crate before"), "35:", "got 'crate before' twice");
+  expect_error(replaced(&BodySections::obstacles, "crate before", "crate"), "34:", "got 'crate' twice");
+  expect_error(replaced(&BodySections::end, "[crate, floor], at", "[crate, crate before], at"),
+               "36:", "no leg has both");
+  expect_error(replaced(&BodySections::end, "[crate, floor], at", "[crate, flor], at"), "36:", "'flor'");
+  expect_error(replaced(&BodySections::platform, "box: [2, 2, 2]", "box: [2, 2]"), "31:", "three sides");
+  BodySections s;
+  s.platform = "    - {name: crate, box: [2, 2, 2], legs: [carry]}\n\n";
+  s.obstacles = "    - {name: crate before, box: [2, 2, 2], at: [-4, 0, 1], legs: [fetch]}\n";
+  s.end = "";
+  expect_error(s.whole(), "27:", "expected bodies of both kinds");  // in no leg
 }
 
 }  // namespace
