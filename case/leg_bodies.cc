@@ -75,6 +75,17 @@ std::optional<PairClass> class_of(const YAML::Node& node) {
   return std::nullopt;
 }
 
+/// Otherwise the other body of the pair would be called unknown, in a leg that does not have it.
+void require_known_names(const Field& entry, const LegsOfBodies& known) {
+  if (!entry.node().IsMap()) return;
+  const auto pair = entry.open_map("a pair").find("pair");
+  if (!pair || !is_list_of_scalars(pair->node())) return;  // its reader complains
+  const std::string expected = "the name of a body, or 'cable 1' to 'cable 6'";
+  for (const Field& name : pair->list(expected)) {
+    if (!known.contains(name.text(expected))) name.fail(expected);
+  }
+}
+
 }  // namespace
 
 void require_legs_of_bodies(const Map& root, const std::vector<std::string>& legs) {
@@ -101,6 +112,7 @@ void require_legs_of_bodies(const Map& root, const std::vector<std::string>& leg
     const auto list = bodies.find(key);
     if (!list || !list->node().IsSequence()) continue;
     for (const Field& entry : list->list("a list of pairs")) {
+      require_known_names(entry, known);
       const auto both = legs_of_pair(entry.node(), known);
       if (both && both->empty()) entry.complain("got two bodies that no leg has both of, expected a pair of one leg");
     }

@@ -76,7 +76,7 @@ class Json(InFolder):
         self.assertEqual([leg["verdict"] for leg in checked["legs"]], ["proved"] * 3)
         self.printed(TAUT, "plan", case, "--out", self.path("legs"), "--no-report", "--budget", "1e-9", code=2,
                      form="plan_of_legs")
-        self.printed(TAUT, "show", case, code=3)
+        self.printed(TAUT, "sensitivity", case, code=3)
 
     def test_bodies(self):
         """Plans, audits, shown cases and reports of cases with bodies; refuted ones, too."""
