@@ -11,6 +11,7 @@
 #include "app/plan.h"
 #include "app/sensitivity.h"
 #include "app/sensitivity_json.h"
+#include "base/input_error.h"
 #include "certify/severity.h"
 #include "cli/console.h"
 #include "cli/headroom_output.h"
@@ -155,6 +156,14 @@ int run_sensitivity(const SensitivityArguments& arguments) {
   const bool is_audit = !arguments.audit.empty() || the_case.audit;
   if (!is_audit) {
     (void)load_case(arguments.case_path, require_plannable);
+  }
+  if (arguments.audit.empty() && the_case.audit && the_case.audit->timed) {
+    throw InputError(
+        ErrorCode::kUse,
+        fmt::format("{}: audit.timed: got true, expected a path at rest: changes are sought for paths that "
+                    "are passed slowly, without the inertia of a move. Name its path with --audit to have "
+                    "it examined at rest",
+                    arguments.case_path));
   }
   const Interruption interruption;
   CaseSensitivity found;

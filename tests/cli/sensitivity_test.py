@@ -176,6 +176,10 @@ class Sensitivity(unittest.TestCase):
             said = run(TAUT, "sensitivity", TUTORIAL, *arguments)
             self.assertEqual(said.returncode, 3, said.stdout)
             self.assertIn(words, said.stderr)
+        timed = os.path.join(CASES, "moves", "portal-20t-table.yaml")
+        said = run(TAUT, "sensitivity", timed)
+        self.assertEqual(said.returncode, 3, said.stdout)
+        self.assertIn("audit.timed: got true, expected a path at rest", said.stderr)
         said = run(TAUT, "plan", TUTORIAL, "--headroom", "-1", "--out", self.folder.name)
         self.assertEqual(said.returncode, 3)
 
