@@ -15,6 +15,7 @@
 #include <new>
 
 #include "app/audit.h"
+#include "app/legs.h"
 #include "app/meshes.h"
 #include "app/plan.h"
 #include "app/prove.h"
@@ -25,13 +26,14 @@
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/sanitize.h"
-#include "case/case_file.h"
+#include "case/case_of_legs.h"
 #include "certificate/certificate_reader.h"
 #include "certificate/certificate_writer.h"
 #include "certify/arithmetic/interval.h"
 #include "certify/arithmetic/rounding.h"
 #include "certify/undecided.h"
 #include "checker/check.h"
+#include "checker/format/legs.h"
 #include "checker/format/no_path.h"
 #include "checker/format/signature.h"
 #include "checker/kernel/errors.h"
@@ -46,6 +48,7 @@
 #include "reports/summary/bodies_statement.h"
 #include "reports/summary/case_summary.h"
 #include "reports/summary/display_units.h"
+#include "reports/summary/headroom_of_legs.h"
 #include "reports/summary/illustration.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/samples.h"
@@ -55,7 +58,7 @@
 namespace taut::v0 {
 
 struct Case::Content {
-  taut::Case the_case;
+  CaseOfLegs of;
   std::string file;  ///< or what stands for it
 };
 
@@ -87,7 +90,8 @@ struct Certificate::Content {
   std::size_t boxes = 0;
   std::optional<std::size_t> no_path_from;  ///< of a certificate that no path exists, which has no path
   std::optional<Theorem> theorem;
-  std::optional<MoveStatistics> move;  ///< of a move that plan() made
+  std::optional<MoveStatistics> move;                          ///< of a move that plan() made
+  std::vector<std::pair<std::string, Certificate>> legs = {};  ///< of a certificate of legs, which has no path
 };
 
 namespace {
@@ -315,14 +319,59 @@ void read_no_path(const nlohmann::json& certificate, Certificate::Content& conte
   content.boxes = static_cast<std::size_t>(std::ranges::count_if(tree, is_reason));
 }
 
+bool is_of_legs(const nlohmann::json& certificate) {
+  return certificate.is_object() && certificate.value("version", nlohmann::json()) == checker::kVersionOfLegs;
+}
+
+/// "carry" of the problem "CASE, leg carry"; a name that says no leg is that of the case.
+struct LegName {
+  explicit LegName(const std::string& problem) : of_case(problem) {
+    constexpr std::string_view kBefore = ", leg ";
+    const std::size_t at = problem.rfind(kBefore);
+    if (at == std::string::npos) return;
+    of_case = problem.substr(0, at);
+    leg = problem.substr(at + kBefore.size());
+  }
+  std::string of_case, leg;
+};
+
+Certificate certificate_of(std::string text, checker::CheckResult checked,
+                           std::vector<std::optional<MoveStatistics>> moves = {});
+checker::CheckResult unchecked(const std::string& text, const std::string& name);
+
+/// Reads the legs, each a certificate of its own. @pre the checker has found the form of the whole right
+void read_legs(const std::string& text, const checker::CheckResult& checked,
+               std::vector<std::optional<MoveStatistics>> moves, Certificate::Content& content) {
+  const checker::Outline outline = checker::read_json(text);
+  const std::vector<std::string_view> texts = checker::leg_texts(outline);
+  moves.resize(texts.size());
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    std::string leg(texts[k]);
+    checker::CheckResult of_leg =
+        k < checked.legs.size() ? checked.legs[k] : unchecked(leg, fmt::format("legs[{}]", k));
+    Certificate certificate = certificate_of(std::move(leg), std::move(of_leg), {std::move(moves[k])});
+    const LegName name(certificate.case_name());
+    content.stated.problem.name = name.of_case;
+    content.boxes += certificate.boxes();
+    if (!content.stated.undecided) content.stated.undecided = certificate.content().stated.undecided;
+    content.legs.emplace_back(name.leg, std::move(certificate));
+  }
+  const bool is_undecided = checked.certificate->value("verdict", nlohmann::json()) == "undecided";
+  content.stated.verdict = is_undecided ? taut::Verdict::kUndecided : taut::Verdict::kProved;  // what it states
+  if (!is_undecided) content.stated.undecided.reset();
+}
+
 /// A certificate that the checker has read.
-/// @param move  of a move that was planned
-Certificate certificate_of(std::string text, checker::CheckResult checked, std::optional<MoveStatistics> move = {}) {
+/// @param moves  of a move that was planned, or of each leg
+Certificate certificate_of(std::string text, checker::CheckResult checked,
+                           std::vector<std::optional<MoveStatistics>> moves) {
   Certificate::Content content;
-  content.move = std::move(move);
   if (is_no_path(*checked.certificate)) {
     read_no_path(*checked.certificate, content);
+  } else if (is_of_legs(*checked.certificate)) {
+    read_legs(text, checked, std::move(moves), content);
   } else {
+    if (!moves.empty()) content.move = std::move(moves.front());
     content.stated = read_certificate(*checked.certificate);
     content.boxes = count_boxes(content.stated);
     content.stated.segments = {};  // nobody asks for them, and they are long
@@ -333,10 +382,15 @@ Certificate certificate_of(std::string text, checker::CheckResult checked, std::
   return Certificate(std::make_shared<const Certificate::Content>(std::move(content)));
 }
 
-/// That a certificate that no path exists has the form of one: read_no_path() relies on it.
-void require_no_path_form(const std::string& text) {
+/// That a certificate that no path exists, or one of legs, has the form of one, on which its reader relies.
+void require_form(const std::string& text, bool is_of_legs) {
   try {
-    (void)checker::read_no_path(checker::read_json(text));
+    checker::Outline outline = checker::read_json(text);
+    if (is_of_legs) {
+      (void)checker::read_legs(outline);
+    } else {
+      (void)checker::read_no_path(std::move(outline));
+    }
   } catch (const checker::Malformed& error) {
     throw taut::InputError(fmt::format("got {}, expected a certificate", sanitize(error.what())));
   }
@@ -346,7 +400,7 @@ void require_no_path_form(const std::string& text) {
 checker::CheckResult unchecked(const std::string& text, const std::string& name) {
   checker::CheckResult result;
   nlohmann::json certificate = parse_certificate(text, name);
-  if (is_no_path(certificate)) require_no_path_form(text);
+  if (is_no_path(certificate) || is_of_legs(certificate)) require_form(text, is_of_legs(certificate));
   result.certificate = std::make_shared<const nlohmann::json>(std::move(certificate));
   result.sha256 = checker::sha256(text);
   result.outcome = checker::Outcome::kUnchecked;
@@ -452,70 +506,118 @@ Case::Case(std::shared_ptr<const Content> content) : content_(std::move(content)
 
 Case Case::load(const std::string& file) {
   return within(ErrorCode::kCase, [&] {
-    return Case(std::make_shared<const Content>(Content{load_case(file), file}));
+    return Case(std::make_shared<const Content>(Content{load_case_of_legs(file), file}));
   });
 }
 
 Case Case::parse(const std::string& yaml, const std::string& name) {
   return within(ErrorCode::kCase, [&] {
-    return Case(std::make_shared<const Content>(Content{parse_case(yaml, name), name}));
+    return Case(std::make_shared<const Content>(Content{parse_case_of_legs(yaml, name), name}));
   });
 }
 
-const std::string& Case::name() const { return content_->the_case.problem.name; }
+const std::string& Case::name() const { return content_->of.whole.problem.name; }
 std::vector<std::pair<std::string, std::string>> Case::document_fields() const {
-  return stated_fields(content_->the_case.document_fields);
+  return stated_fields(content_->of.whole.document_fields);
 }
-const std::string& Case::description() const { return content_->the_case.description; }
+const std::string& Case::description() const { return content_->of.whole.description; }
 
 std::vector<std::string> Case::parameters() const {
   std::vector<std::string> names;
-  for (const Parameter& parameter : content_->the_case.problem.space.parameters) names.push_back(parameter.name);
+  for (const Parameter& parameter : content_->of.whole.problem.space.parameters) names.push_back(parameter.name);
   return names;
 }
 
-std::size_t Case::query_waypoints() const { return content_->the_case.problem.query.size(); }
+std::vector<std::pair<std::string, Case>> Case::legs() const {
+  return within(ErrorCode::kCase, [&] {
+    std::vector<std::pair<std::string, Case>> result;
+    for (const CaseLeg& leg : content_->of.legs) {
+      result.emplace_back(leg.name, Case(std::make_shared<const Content>(Content{{leg.content, {}}, content_->file})));
+    }
+    return result;
+  });
+}
+
+std::size_t Case::query_waypoints() const { return content_->of.whole.problem.query.size(); }
 
 std::array<std::array<double, 2>, 6> Case::tension_limits_N() const {
-  return within(ErrorCode::kCase, [&] { return outer(content_->the_case.problem.robot.tension_N); });
+  return within(ErrorCode::kCase, [&] { return outer(content_->of.whole.problem.robot.tension_N); });
 }
 
 std::array<std::array<double, 2>, 6> Case::length_limits_m() const {
-  return within(ErrorCode::kCase, [&] { return outer(content_->the_case.problem.robot.length_m); });
+  return within(ErrorCode::kCase, [&] { return outer(content_->of.whole.problem.robot.length_m); });
 }
 
+namespace {
+
+/// What `state` says of a case; of a case of legs what it says of each, with the leg's name before it.
+template <class State>
+std::vector<std::string> stated_of(const CaseOfLegs& of, const State& state) {
+  if (of.legs.empty()) return state(of.whole);
+  std::vector<std::string> result;
+  for (const CaseLeg& leg : of.legs) {
+    for (const std::string& line : state(leg.content)) result.push_back(fmt::format("leg {}: {}", leg.name, line));
+  }
+  return result;
+}
+
+}  // namespace
+
 std::vector<std::string> Case::bodies_statement() const {
-  return within(ErrorCode::kCase, [&]() -> std::vector<std::string> {
-    const std::optional<CaseBodies>& bodies = content_->the_case.bodies;
-    return bodies ? lines(taut::bodies_statement(*bodies)) : std::vector<std::string>();
+  return within(ErrorCode::kCase, [&] {
+    return stated_of(content_->of, [](const taut::Case& the_case) {
+      const std::optional<CaseBodies>& bodies = the_case.bodies;
+      return bodies ? lines(taut::bodies_statement(*bodies)) : std::vector<std::string>();
+    });
   });
 }
 
 std::string Case::time_statement() const {
   return within(ErrorCode::kCase, [&]() -> std::string {
-    const taut::Case& the_case = content_->the_case;
+    const taut::Case& the_case = content_->of.whole;
     return the_case.problem.time ? time_limits_text(*the_case.problem.time, DisplayUnits(the_case.units)) : "";
   });
 }
 
 std::vector<std::string> Case::load_statement() const {
-  return within(ErrorCode::kCase, [&] { return lines(taut::load_statement(content_->the_case)); });
+  return within(ErrorCode::kCase, [&] {
+    return stated_of(content_->of, [](const taut::Case& the_case) { return lines(taut::load_statement(the_case)); });
+  });
 }
 
-std::vector<std::string> Case::warnings() const { return content_->the_case.warnings; }
+std::vector<std::string> Case::warnings() const { return content_->of.whole.warnings; }
+
+namespace {
+
+/// Of the case, or of each leg.
+std::vector<CaseSummary> summaries_of(const CaseOfLegs& of) {
+  std::vector<CaseSummary> result;
+  result.reserve(of.legs.size() + 1);
+  for (const CaseLeg& leg : of.legs) result.emplace_back(leg.content);
+  if (of.legs.empty()) result.emplace_back(of.whole);
+  return result;
+}
+
+}  // namespace
 
 std::string Case::summary() const {
-  return within(ErrorCode::kCase, [&] { return to_text(CaseSummary(content_->the_case)); });
+  return within(ErrorCode::kCase, [&] {
+    const std::vector<CaseSummary> summaries = summaries_of(content_->of);
+    return content_->of.legs.empty() ? to_text(summaries.front()) : to_text(content_->of, summaries);
+  });
 }
 
 std::string Case::summary_json() const {
   return within(ErrorCode::kCase, [&] {
-    return to_json(CaseSummary(content_->the_case)).dump(1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+    const std::vector<CaseSummary> summaries = summaries_of(content_->of);
+    const nlohmann::json json =
+        content_->of.legs.empty() ? to_json(summaries.front()) : to_json(content_->of, summaries);
+    return json.dump(1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
   });
 }
 
 std::string Case::drawing_svg() const {
-  return within(ErrorCode::kCase, [&] { return robot_drawing(CaseSummary(content_->the_case)); });
+  return within(ErrorCode::kCase, [&] { return robot_drawing(summaries_of(content_->of).front()); });
 }
 
 // --- Certificates ----------------------------------------------------------------------------------------------------
@@ -549,6 +651,7 @@ Verdict Certificate::verdict() const {
 
 const std::string& Certificate::case_name() const { return content_->stated.problem.name; }
 std::vector<std::pair<std::string, std::string>> Certificate::document_fields() const {
+  if (!content_->legs.empty()) return content_->legs.front().second.document_fields();
   const nlohmann::json& illustration = content_->stated.illustration;
   if (!illustration.is_object() || !illustration.contains("document_fields")) return {};
   return stated_fields(document_fields_from_json(illustration.at("document_fields")));
@@ -612,7 +715,29 @@ std::optional<std::size_t> Certificate::no_path_from() const { return content_->
 
 std::string Certificate::reason_code() const { return code_of(reason()); }
 
+std::vector<std::pair<std::string, Certificate>> Certificate::legs() const { return content_->legs; }
+
+namespace {
+
+/// The least of the legs' headroom; empty where it is not known of each.
+std::string headroom_of(const std::vector<std::pair<std::string, Certificate>>& legs) {
+  std::vector<Illustration> illustrations;
+  for (const auto& [name, leg] : legs) {
+    const taut::Certificate& stated = leg.content().stated;
+    illustrations.emplace_back(stated.illustration, stated.problem.space.parameters.size());
+  }
+  std::vector<LegHeadroom> found;
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    found.push_back({legs[k].first, illustrations[k].headroom, legs[k].second.content().stated.problem});
+  }
+  const nlohmann::json json = headroom_json(found);
+  return json.is_null() ? "" : json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
 std::string Certificate::headroom() const {
+  if (!content_->legs.empty()) return within(ErrorCode::kCertificate, [&] { return headroom_of(content_->legs); });
   const nlohmann::json& illustration = content_->stated.illustration;
   if (!illustration.is_object() || !illustration.contains("headroom")) return "";
   return illustration.at("headroom").dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
@@ -629,6 +754,15 @@ Path Certificate::path() const {
 }
 
 std::optional<double> Certificate::duration_s() const {
+  if (!content_->legs.empty()) {
+    double sum = 0;
+    for (const auto& [name, leg] : content_->legs) {
+      const std::optional<double> of_leg = leg.duration_s();
+      if (!of_leg) return std::nullopt;
+      sum += *of_leg;
+    }
+    return sum;
+  }
   const std::optional<taut::TimeLaw>& law = content_->stated.path.timing;
   return law ? std::optional(law->duration_s()) : std::nullopt;
 }
@@ -650,17 +784,28 @@ std::optional<MovePlan> Certificate::move_plan() const {
   });
 }
 
+namespace {
+
+void require_one_path(const Certificate& certificate, const char* what) {
+  if (certificate.content().legs.empty()) return;
+  throw taut::InputError(fmt::format("{}: got a certificate of several legs, expected that of one: legs()", what));
+}
+
+}  // namespace
+
 std::string Certificate::path_csv() const {
   return within(ErrorCode::kCertificate, [&] {
     if (content_->no_path_from) {
       throw taut::InputError("path_csv: got a certificate that no path exists, expected one of a path");
     }
+    require_one_path(*this, "path_csv");
     return taut::path_csv(content_->stated.problem, content_->stated.path, content_->checked.sha256);
   });
 }
 
 std::string Certificate::controller_csv(double step_m) const {
   return within(ErrorCode::kUse, [&] {
+    require_one_path(*this, "controller_csv");
     if (verdict() != Verdict::kProved) {
       throw taut::InputError(
           "controller_csv: got a certificate without a theorem that the path is proved, expected a "
@@ -707,15 +852,27 @@ Table table_of(const std::array<std::string_view, kColumns>& columns,
   return table;
 }
 
+/// The legs of a certificate of legs.
+std::vector<MoveLeg> moves_of(const Certificate& certificate) {
+  std::vector<MoveLeg> result;
+  for (const auto& [name, leg] : certificate.content().legs) {
+    result.push_back({leg.content().stated.problem, leg.content().stated.path, name});
+  }
+  return result;
+}
+
 MoveRows move_rows_of(const Certificate& certificate, double rate_Hz, const char* table) {
   require_move_table(certificate, rate_Hz, table);
   const taut::Certificate& stated = certificate.content().stated;
-  return move_rows(stated.problem, stated.path, rate_Hz);
+  const std::vector<MoveLeg> legs = moves_of(certificate);
+  return legs.empty() ? move_rows(stated.problem, stated.path, rate_Hz) : move_rows(legs, rate_Hz);
 }
 
 MoveTables move_tables_of(const Certificate& certificate, double rate_Hz, const char* table) {
   require_move_table(certificate, rate_Hz, table);
   const Certificate::Content& content = certificate.content();
+  const std::vector<MoveLeg> legs = moves_of(certificate);
+  if (!legs.empty()) return move_tables(legs, content.stated.problem.name, rate_Hz, content.checked.sha256);
   return move_tables(content.stated.problem, content.stated.path, rate_Hz, content.checked.sha256);
 }
 
@@ -742,7 +899,11 @@ std::string Certificate::poses_tum(double rate_Hz) const {
   return within(ErrorCode::kUse, [&] { return move_tables_of(*this, rate_Hz, "poses_tum").poses_tum; });
 }
 
-std::size_t Certificate::segments() const { return content_->stated.path.segments(); }
+std::size_t Certificate::segments() const {
+  std::size_t result = content_->stated.path.segments();
+  for (const auto& [name, leg] : content_->legs) result += leg.segments();
+  return result;
+}
 std::size_t Certificate::boxes() const { return content_->boxes; }
 
 std::vector<Sample> Certificate::samples(std::size_t about) const {
@@ -772,9 +933,20 @@ std::vector<Sample> Certificate::samples(std::size_t about) const {
 
 namespace {
 
+/// For what is about one path. @param what  that asks for it
+void require_one_path(const Case& the_case, const char* what) {
+  const Case::Content& content = the_case.content();
+  if (content.of.legs.empty()) return;
+  throw taut::InputError(
+      fmt::format("{}: got the case {} with legs, expected one without them, or one of its legs(), a case of its own",
+                  what, content.file),
+      {content.file, 0, "query.legs"});
+}
+
 void require_plan(const Case& the_case) {
   try {
-    require_plannable(the_case.content().the_case);
+    for (const CaseLeg& leg : the_case.content().of.legs) require_plannable(leg.content);
+    if (the_case.content().of.legs.empty()) require_plannable(the_case.content().of.whole);
   } catch (const FieldError& error) {
     const std::string& file = the_case.content().file;
     throw taut::InputError(fmt::format("{}: {}", file, error.what()), {file, 0, error.field()});
@@ -783,40 +955,71 @@ void require_plan(const Case& the_case) {
 
 }  // namespace
 
+namespace {
+
+void set_budget(double seconds, taut::Case& the_case) {
+  if (!(seconds > 0)) return;
+  the_case.planner.max_seconds = seconds;
+  the_case.planner.has_budget = true;
+}
+
+PlannedCaseOptions inner(const PlanOptions& options, const SigningKey* key) {
+  return {.grow = options.grow,
+          .key = key,
+          .max_seconds = options.max_check_seconds,
+          .headroom_seconds = options.headroom_seconds,
+          .no_path_seconds = options.no_path_seconds,
+          .move = {options.speed_share, options.greatest_speed}};
+}
+
+/// Of a case of legs.
+Certificate plan_all_legs(const CaseOfLegs& of, const PlanOptions& options, const SigningKey* key,
+                          const taut::Progress& progress, const std::stop_token& stop) {
+  if (!options.atlas.empty() || !options.save_atlas.empty()) {
+    const char* const field = options.atlas.empty() ? "save_atlas" : "atlas";
+    throw taut::InputError(
+        fmt::format("{}: got a case with legs, each of which has an atlas of its own, expected one without legs",
+                    field),
+        {"", 0, field});
+  }
+  std::vector<CaseLeg> legs = of.legs;
+  for (CaseLeg& leg : legs) set_budget(options.budget_seconds, leg.content);
+  PlannedLegs made = plan_legs(
+      legs, inner(options, key), [](std::size_t) {}, progress, stop);
+  std::vector<std::optional<MoveStatistics>> moves;
+  for (PlannedLeg& leg : made.legs) moves.push_back(std::move(leg.planned.plan.move));
+  return certificate_of(std::move(made.text), std::move(made.checked), std::move(moves));
+}
+
+}  // namespace
+
 Certificate plan(const Case& the_case, const PlanOptions& options) {
   ProgressBridge relay(options.progress, options.stop);
   Certificate result = prove_within(ErrorCode::kCase, [&] {
     require_plan(the_case);
-    taut::Case planned = the_case.content().the_case;
+    taut::Case planned = the_case.content().of.whole;
     require_seconds(options.budget_seconds, "budget_seconds");
     require_seconds(options.max_check_seconds, "max_check_seconds");
     require_seconds(options.headroom_seconds, "headroom_seconds");
     require_seconds(options.no_path_seconds, "no_path_seconds");
     require_move(options, planned, the_case.content().file);
-    if (options.budget_seconds > 0) {
-      planned.planner.max_seconds = options.budget_seconds;
-      planned.planner.has_budget = true;
-    }
+    set_budget(options.budget_seconds, planned);
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
-    if (!options.save_atlas.empty()) require_writable(options.save_atlas);
-    Planner planner(planned, options.atlas);
     const auto progress = [&](const PlanProgress& at) {
       const bool is_move = at.move_tries > 0;
       relay.report({is_move ? "proving the move" : "planning",
                     static_cast<std::size_t>(is_move ? at.move_tries : at.charts), 0});
     };
-    PlannedCase made = plan_case(planned, planner,
-                                 {.grow = options.grow,
-                                  .key = key ? &*key : nullptr,
-                                  .max_seconds = options.max_check_seconds,
-                                  .headroom_seconds = options.headroom_seconds,
-                                  .no_path_seconds = options.no_path_seconds,
-                                  .move = {options.speed_share, options.greatest_speed}},
-                                 progress, relay.token());
+    const SigningKey* const by = key ? &*key : nullptr;
+    const CaseOfLegs& of = the_case.content().of;
+    if (!of.legs.empty()) return plan_all_legs(of, options, by, progress, relay.token());
+    if (!options.save_atlas.empty()) require_writable(options.save_atlas);
+    Planner planner(planned, options.atlas);
+    PlannedCase made = plan_case(planned, planner, inner(options, by), progress, relay.token());
     if (!options.save_atlas.empty() && planner.atlas().size() > 0) {
       write_whole({{options.save_atlas, planner.atlas_bytes()}});
     }
-    return certificate_of(std::move(made.text), std::move(made.checked), std::move(made.plan.move));
+    return certificate_of(std::move(made.text), std::move(made.checked), {std::move(made.plan.move)});
   });
   relay.rethrow();
   return result;
@@ -825,8 +1028,9 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
 Certificate prove(const Case& the_case, const Path& path, const ProveOptions& options) {
   return prove_within(ErrorCode::kPath, [&] {
     require_seconds(options.max_check_seconds, "max_check_seconds");
+    require_one_path(the_case, "prove");
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
-    const taut::Case about = path.timing ? the_case.content().the_case : at_rest(the_case.content().the_case);
+    const taut::Case about = path.timing ? the_case.content().of.whole : at_rest(the_case.content().of.whole);
     const Decoration decoration = read_meshes(about.decoration);
     taut::Certificate certificate = prove_waypoints(about.problem, inner(path), options.max_bits, options.stop);
     certificate.illustration = {{"kind", "proof"}};
@@ -844,7 +1048,7 @@ AuditRequest audit_request(const Case::Content& content, const PathInput& path,
                            const std::optional<Interpolation>& interpolation) {
   AuditRequest request{path, std::nullopt};
   if (interpolation) request.law = inner(*interpolation);
-  return resolved(request, content.the_case, content.file);
+  return resolved(request, content.of.whole, content.file);
 }
 
 /// Does the work on a path. Where the caller's progress threw, and so interrupted it, that is thrown again.
@@ -873,31 +1077,32 @@ Certificate audit_in_time(const taut::Case& the_case, const AuditRequest& reques
 Certificate audit_input(const Case& the_case, const PathInput& path, const AuditOptions& options) {
   ProgressBridge relay(options.progress, options.stop);
   const auto work = [&] {
+    require_one_path(the_case, "audit");
     AuditRequest request = audit_request(the_case.content(), path, options.interpolation);
     request.timed |= options.timed;
     if (options.rounding) request.rounding = table_rounding(options.rounding->position_m, options.rounding->angle_rad);
     if (request.timed) {
       require_seconds(options.max_check_seconds, "max_check_seconds");
       relay.report({"proving the move", 0, 0});
-      return audit_in_time(the_case.content().the_case, request, options, relay.token());
+      return audit_in_time(the_case.content().of.whole, request, options, relay.token());
     }
     if (options.rounding) {
       throw taut::InputError("rounding: got it without timed, expected both", {"", 0, "rounding"});
     }
-    const Case::Content content{at_rest(the_case.content().the_case), the_case.content().file};
+    const Case::Content content{{at_rest(the_case.content().of.whole), {}}, the_case.content().file};
     require_seconds(options.max_check_seconds, "max_check_seconds");
     require_seconds(options.headroom_seconds, "headroom_seconds");
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
-    PathSource source(content.the_case.problem, request.path, request.law);
+    PathSource source(content.of.whole.problem, request.path, request.law);
     std::string text;
     const auto progress = [&](std::size_t done) { relay.report({"auditing", done, source.segments()}); };
     const Audit audited = audit_path(
         source,
-        {content.the_case, read_meshes(content.the_case.decoration), options.max_bits, temporary_folder(),
+        {content.of.whole, read_meshes(content.of.whole.decoration), options.max_bits, temporary_folder(),
          key ? &*key : nullptr, options.headroom_seconds},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.interrupted) throw Interrupted("interrupted");
-    return checked_certificate(std::move(text), content.the_case.problem, options.max_check_seconds, relay.token());
+    return checked_certificate(std::move(text), content.of.whole.problem, options.max_check_seconds, relay.token());
   };
   return prove_path_within(relay, work);
 }
@@ -923,17 +1128,25 @@ std::string sensitivity_of(const Case& the_case, const PathInput& path, const Se
   const auto progress = [&](const char* stage, std::size_t done, std::size_t all) { relay.report({stage, done, all}); };
   const auto work = [&]() -> std::string {
     require_seconds(options.budget_seconds, "budget_seconds");
-    const Case::Content content{at_rest(the_case.content().the_case), the_case.content().file};
+    require_one_path(the_case, "sensitivity");
+    const std::optional<AuditedPath>& audited = the_case.content().of.whole.audit;
+    if (path.name.empty() && audited && audited->timed) {
+      throw taut::InputError(
+          "sensitivity: audit.timed: got true, expected a path at rest: changes are sought for paths that are passed "
+          "slowly, without the inertia of a move",
+          {the_case.content().file, 0, "audit.timed"});
+    }
+    const Case::Content content{{at_rest(the_case.content().of.whole), {}}, the_case.content().file};
     nlohmann::json found;
-    if (!path.name.empty() || content.the_case.audit) {
+    if (!path.name.empty() || content.of.whole.audit) {
       const AuditRequest request = audit_request(content, path, options.interpolation);
-      PathSource source(content.the_case.problem, request.path, request.law);
+      PathSource source(content.of.whole.problem, request.path, request.law);
       found = to_json(source.problem(),
-                      audit_sensitivity(content.the_case, source, options.budget_seconds, progress, relay.token()));
+                      audit_sensitivity(content.of.whole, source, options.budget_seconds, progress, relay.token()));
     } else {
       require_plan(the_case);
-      found = to_json(content.the_case.problem,
-                      plan_sensitivity(content.the_case, options.budget_seconds, progress, relay.token()));
+      found = to_json(content.of.whole.problem,
+                      plan_sensitivity(content.of.whole, options.budget_seconds, progress, relay.token()));
     }
     if (relay.token().stop_requested()) throw Interrupted("interrupted");
     return found.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
@@ -964,9 +1177,16 @@ CheckResult check(const std::string& certificate_text, const CheckOptions& optio
     request.max_seconds = options.max_seconds;
     nlohmann::json problem;
     if (options.the_case) {
-      problem = to_json(options.the_case->content().the_case.problem);
+      const CaseOfLegs& of = options.the_case->content().of;
+      if (of.legs.empty()) {
+        problem = to_json(of.whole.problem);
+        request.meshes = meshes_of(of.whole.problem);
+      } else {
+        problem = nlohmann::json::array();
+        for (const CaseLeg& leg : of.legs) problem.push_back(to_json(leg.content.problem));
+        request.meshes = meshes_of(of.legs);
+      }
       request.problem = &problem;
-      request.meshes = meshes_of(options.the_case->content().the_case.problem);
     }
     const checker::CheckResult checked = checker::check(certificate_text, request);
     CheckResult result;

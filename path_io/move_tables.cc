@@ -166,6 +166,12 @@ MoveTables move_tables(const Problem& problem, const Path& path, double rate_Hz,
   return tables_of({problem.name, "", rate_Hz, certificate_sha256}, problem, move_rows(problem, path, rate_Hz));
 }
 
+MoveRows move_rows(std::span<const MoveLeg> legs, double rate_Hz) {
+  MoveRows rows;
+  for (const MoveLeg& leg : legs) append(move_rows(leg.problem, leg.path, rate_Hz), rows);
+  return rows;
+}
+
 MoveTables move_tables(std::span<const MoveLeg> legs, const std::string& name, double rate_Hz,
                        std::string_view certificate_sha256) {
   MoveRows rows;

@@ -62,6 +62,9 @@ struct MoveLeg {
   std::string name;
 };
 
+/// The rows of legs one after the other, as move_tables() has them. @pre, @throws  as there
+[[nodiscard]] MoveRows move_rows(std::span<const MoveLeg> legs, double rate_Hz);
+
 /// The tables of legs one after the other: times go on from leg to leg, without a pause, and the row where two legs
 /// meet stands once. Comments say between which times each leg is.
 /// @param name  of the case @param certificate_sha256  of the certificate of all legs

@@ -106,7 +106,10 @@ class TAUT_EXPORT Case {
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> document_fields() const;
   [[nodiscard]] const std::string& description() const;       ///< the file's leading comment
   [[nodiscard]] std::vector<std::string> parameters() const;  ///< their names, in the order of waypoints
-  [[nodiscard]] std::size_t query_waypoints() const;          ///< 0: there is nothing to plan
+  [[nodiscard]] std::size_t query_waypoints() const;          ///< 0: there is nothing to plan, or there are legs
+  /// Of a case of legs, paths that follow one another with loads and bodies of their own: their names, and each as a
+  /// case of its own, "CASE, leg NAME". None of any other case. What is said of loads and bodies below names the legs.
+  [[nodiscard]] std::vector<std::pair<std::string, Case>> legs() const;
 
   /// Lower and upper limit of each cable, rounded to the nearest binary64: for plots.
   [[nodiscard]] std::array<std::array<double, 2>, 6> tension_limits_N() const;
@@ -315,10 +318,14 @@ class TAUT_EXPORT Certificate {
   /// certificate has no path, no segments and no samples.
   [[nodiscard]] std::optional<std::size_t> no_path_from() const;
   /// What stands in the way of a proof, or how far it reaches: JSON (docs/sensitivity.md), or empty where that was not
-  /// sought. The program that wrote the certificate says so; it is no part of the claim, and nothing checks it.
+  /// sought; of legs what is provable in all of them. The program that wrote the certificate says so; it is no part of
+  /// the claim, and nothing checks it.
   [[nodiscard]] std::string headroom() const;
   [[nodiscard]] Path path() const;  ///< bit for bit
-  /// How long the move takes; nothing of a path without a law in time.
+  /// Of a certificate of legs: their names, and each as a certificate of its own, with a theorem where there is one of
+  /// it. None of any other. A certificate of legs has no path, samples, margins or witness: its legs have.
+  [[nodiscard]] std::vector<std::pair<std::string, Certificate>> legs() const;
+  /// How long the move takes, or all legs together; nothing of a path without a law in time.
   [[nodiscard]] std::optional<double> duration_s() const;
   /// How plan() made the move; nothing of what it did not make, and of a certificate that was loaded.
   [[nodiscard]] std::optional<MovePlan> move_plan() const;
@@ -333,7 +340,7 @@ class TAUT_EXPORT Certificate {
   [[nodiscard]] std::string controller_csv(double step_m = 0.01) const;
   /// A proved move in time, for the drives that follow it (docs/moves.md): t; lengths l1 … l6 [m], and their first two
   /// derivatives v1 … [m/s] and a1 … [m/s^2]. Rows are at t = 0, 1/rate, 2/rate, … and where the move ends. They are on
-  /// the move but for rounding; what drives do between them is not proved.
+  /// the move but for rounding; what drives do between them is not proved. Of legs, times go on from leg to leg.
   /// @throws InputError unless the theorem is there and says "proved" of a move, and `rate_Hz` is above 0, at most
   /// 10,000, and low enough for 500,000 rows.
   [[nodiscard]] Table winches(double rate_Hz = 100) const;
@@ -399,8 +406,10 @@ struct PlanOptions {
 
 /// Plans through the case's query and proves the path: `taut plan`. In a case with the key `time` it is a move. Where
 /// the search finds no path, it tries to prove that none exists (kNoPath); where that is not proved either, the case is
-/// undecided.
-/// @throws InputError, also where the case has no query, or a speed is asked for and the case has no key `time`.
+/// undecided. A case of legs has one certificate over all legs; budgets are for each, and that no path exists is not
+/// tried to prove.
+/// @throws InputError, also where the case has no query, a speed is asked for and the case has no key `time`, or a case
+/// of legs is given an atlas.
 [[nodiscard]] TAUT_EXPORT Certificate plan(const Case& the_case, const PlanOptions& options = {});
 
 struct ProveOptions {

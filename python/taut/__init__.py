@@ -63,9 +63,13 @@ class Case:
     @classmethod
     def load(cls, file: FileName) -> Case:
         """Reads a case file."""
-        case = cls.__new__(cls)
-        case._case = _taut.Case.load(os.fspath(file))
-        return case
+        return cls._of(_taut.Case.load(os.fspath(file)))
+
+    @classmethod
+    def _of(cls, case: Any) -> Case:
+        result = cls.__new__(cls)
+        result._case = case
+        return result
 
     @property
     def name(self) -> str:
@@ -90,8 +94,13 @@ class Case:
 
     @property
     def query_waypoints(self) -> int:
-        """Number of waypoints of the query; 0: there is nothing to plan."""
+        """Number of waypoints of the query; 0: there is nothing to plan, or there are legs."""
         return self._case.query_waypoints
+
+    @property
+    def legs(self) -> dict[str, Case]:
+        """The legs of a case of legs, by name and in their order, each a case of its own. Empty for any other case."""
+        return {name: Case._of(leg) for name, leg in self._case.legs}
 
     @property
     def tension_limits_N(self) -> Floats:
@@ -149,7 +158,7 @@ class Case:
 
     def _repr_svg_(self) -> Optional[str]:
         """How notebooks show a case."""
-        return self.drawing_svg() if self.query_waypoints else None
+        return self.drawing_svg() if self.query_waypoints or self.legs else None
 
     def __repr__(self) -> str:
         return f"<taut.Case {self.name!r}, parameters {', '.join(self.parameters)}>"
@@ -378,11 +387,21 @@ class Certificate:
     @property
     def headroom(self) -> Optional[dict[str, Any]]:
         """What stands in the way of a proof, or how far it reaches (docs/sensitivity.md); None where it was not sought.
+        For legs, what is provable in all of them.
 
         The program that wrote the certificate says so; it is no part of the claim, and nothing checks it.
         """
-        illustration = json.loads(self.text)["illustration"]
-        return illustration.get("headroom") if isinstance(illustration, dict) else None
+        text = self._certificate.headroom
+        return json.loads(text) if text else None
+
+    @property
+    def legs(self) -> dict[str, Certificate]:
+        """The legs of a certificate of legs, by name and in their order, each a certificate of its own, with a theorem
+        where there is one of it. Empty for any other certificate.
+
+        A certificate of legs has no path, samples, margins or witness: its legs have.
+        """
+        return {name: Certificate._of(leg) for name, leg in self._certificate.legs}
 
     @property
     def path(self) -> Path:
@@ -392,7 +411,7 @@ class Certificate:
 
     @property
     def duration_s(self) -> Optional[float]:
-        """How long the move takes; None of a path without a law in time."""
+        """How long the move takes, or all legs together; None of a path without a law in time."""
         return self._certificate.duration_s
 
     @property
@@ -418,7 +437,7 @@ class Certificate:
         """Lengths, speeds and accelerations of the cables of a proved move in time (docs/moves.md).
 
         Rows are at t = 0, 1/rate, 2/rate, … and where the move ends. They are on the move but for rounding; what drives
-        do between them is not proved.
+        do between them is not proved. For legs, times go on from leg to leg.
 
         :param rate: rows a second, up to 10,000
         :raises InputError: unless the certificate has a theorem that a move is proved
@@ -472,7 +491,8 @@ def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] =
          progress: Optional[Progress] = None) -> Certificate:
     """Plans through the case's query and proves the path: `taut plan`. In a case with the key `time` it is a move.
 
-    Where the search finds no path, it tries to prove that none exists: then the verdict is "no path".
+    Where the search finds no path, it tries to prove that none exists: then the verdict is "no path". A case of legs
+    has one certificate over all legs; time limits are for each leg, and that no path exists is not tried to prove.
 
     :param budget_seconds: time limit for planning and proving; 0: the case's own
     :param atlas: file with charts to begin with (docs/atlas-file.md)

@@ -442,6 +442,55 @@ class MovesInTime(unittest.TestCase):
         with self.assertRaisesRegex(taut.InputError, "without the key 'time'"):
             taut.plan(taut.Case.load(ROBOT1), greatest_speed=True)
 
+    def test_are_audited_within_the_rounding_of_a_table(self):
+        poses = self.planned.poses(50)
+        table = {"t[s]": poses.time_s, **{f"{name}[m]": poses.p_m[:, k] for k, name in enumerate(("px", "py", "pz"))},
+                 **{name: poses.quaternion[:, k] for k, name in enumerate(("qx", "qy", "qz", "qw"))}}
+        audited = taut.audit(self.case, table, timed=True, rounding=(1e-5, 1e-5))
+        self.assertTrue(audited.is_proved, audited.reason)
+        self.assertAlmostEqual(audited.duration_s, self.planned.duration_s, 9)
+        self.assertEqual(audited.stretches, [])
+        fast = taut.audit(taut.Case({**CRANE, "time": {"load": {"speed": "0.8 m/s"}}}),
+                          {**table, "t[s]": poses.time_s / 2}, timed=True, rounding=(1e-5, 1e-5))
+        self.assertEqual((fast.verdict, fast.theorem.witness.kind), ("refuted", "load_speed"))
+        with self.assertRaisesRegex(taut.InputError, "rounding"):
+            taut.audit(self.case, table, timed=True)
+        with self.assertRaisesRegex(taut.InputError, "rounding: got it without timed"):
+            taut.audit(self.case, table, rounding=(1e-5, 1e-5))
+        with self.assertRaises(taut.InputError) as caught:
+            taut.audit(self.case, table, timed=True, rounding=(1e-5, 0.0))
+        self.assertEqual(caught.exception.field, "rounding.angle_rad")
+        # Rows that are rounded to 1 mm are not within 10 um of any smooth move.
+        with self.assertRaises(taut.InputError):
+            taut.audit(self.case, {**table, "px[m]": np.round(table["px[m]"], 3)}, timed=True, rounding=(1e-5, 1e-5))
+
+
+class Legs(unittest.TestCase):
+    def test_are_planned_and_proved_as_one_and_each(self):
+        load = {**CRANE["load"], "items": [{"name": "platform", "mass": 8},
+                                           {"name": "payload", "mass": 12, "at": [0, 0, -1], "legs": ["carry"]}]}
+        case = taut.Case({**CRANE, "load": load, "query": {"legs": [
+            {"name": "fetch", "waypoints": [{"px": 0, "pz": 6}, {"px": -4, "pz": 6}]},
+            {"name": "carry", "waypoints": [{"px": -4, "pz": 6}, {"px": 4, "pz": 6}]}]}})
+        self.assertEqual((list(case.legs), case.query_waypoints), (["fetch", "carry"], 0))
+        self.assertEqual(case.legs["carry"].query_waypoints, 2)
+        self.assertTrue(any(line.startswith("leg carry: ") for line in case.load_statement))
+        whole = taut.plan(case, headroom_seconds=0)
+        self.assertTrue(whole.is_proved, whole.reason)
+        self.assertEqual((list(whole.legs), whole.case_name), (["fetch", "carry"], "crane"))
+        self.assertEqual([leg.verdict for leg in whole.legs.values()], ["proved"] * 2)
+        self.assertIsNone(whole.theorem.margins)
+        self.assertGreater(whole.legs["carry"].theorem.margins.tension_N, 0)
+        self.assertAlmostEqual(whole.duration_s, sum(leg.duration_s for leg in whole.legs.values()), 12)
+        self.assertEqual(whole.poses(10).time_s[-1], whole.duration_s)
+        self.assertEqual(taut.check(whole, case=case).outcome, "accepted")
+        self.assertIn("All 2 legs are proved", taut.report(whole))
+        loaded = pickle.loads(pickle.dumps(whole))
+        self.assertEqual(({name: leg.verdict for name, leg in loaded.legs.items()}, loaded.theorem),
+                         ({"fetch": "unchecked", "carry": "unchecked"}, None))
+        with self.assertRaisesRegex(taut.InputError, "legs"):
+            taut.audit(case, "path.csv")
+
 
 class NoPath(unittest.TestCase):
     def test_is_proved_saved_loaded_checked_and_reported(self):
