@@ -282,14 +282,11 @@ Densities<I> enclose_densities(const ProofModel<I>& problem, const Matrix3<Slope
   return result;
 }
 
-/// Of a move in time: what inertia asks of the cables at the midpoint, and over all of a box.
+/// Of a move in time: what inertia asks of the cables over all of a box, and at its midpoint where that is asked for.
 template <class I>
 struct Inertia {
   Inertia(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s)
-      : at_mid(problem.moving->over(problem.model, segment, s.mid)),
-        over(problem.moving->over(problem.model, segment, s.range, Speeds::kAny)) {
-    if (problem.moving->may_stop()) slowed_at_mid = problem.moving->over(problem.model, segment, s.mid, Speeds::kAny);
-  }
+      : over(problem.moving->over(problem.model, segment, s.range)) {}
 
   /// w0 − w_in.
   [[nodiscard]] static Vector6<I> rest(const Vector6<I>& w0, const Moving<I>& moving) {
@@ -298,29 +295,49 @@ struct Inertia {
     return w;
   }
 
-  /// Adds what inertia takes of tensions to what they are at rest: at the midpoint, and over the box. Slopes remain
-  /// those at rest.
-  void add(const InverseBound<I>& inverse, BoxEnclosure<I>& box) const {
-    const Forms<I, 1> at_middle = inverse.times(loaded_column(inverse, at_mid.wrench));
-    const auto over_box = slowed_at_mid ? by_law(inverse, over.by_law) : by_wrench(inverse, over.wrench);
+  /// Adds what inertia takes of tensions to what they are at rest: over the box, and as much at the midpoint. Slopes
+  /// remain those at rest.
+  void add(const ProofModel<I>& problem, const InverseBound<I>& inverse, BoxEnclosure<I>& box) {
+    const auto over_box = problem.moving->may_stop() ? by_law(inverse, over.by_law) : by_wrench(inverse, over.wrench);
     for (std::size_t i = 0; i < kCables; ++i) {
-      const auto take = [](SlopeForm<I>& from, const I& mid, const I& range) {
-        from.at_mid = from.at_mid - mid;
-        from.range = from.range - range;
-      };
-      const I& mid = at_middle[i][0].at_mid;
-      const I& range = over_box[i];
-      take(box.density[i], mid, range);
-      const I tension_mid = box.length[i].at_mid * mid, tension_range = box.length[i].range * range;
-      take(box.low[i], tension_mid, tension_range);
-      take(box.high[i], tension_mid, tension_range);
+      at_rest[i] = {box.density[i].at_mid, box.low[i].at_mid, box.high[i].at_mid};
+      const I tension = box.length[i].range * over_box[i];
+      box.density[i].range = box.density[i].range - over_box[i];
+      box.low[i].range = box.low[i].range - tension;
+      box.high[i].range = box.high[i].range - tension;
+      box.density[i].at_mid = box.density[i].at_mid - over_box[i];
+      box.low[i].at_mid = box.low[i].at_mid - tension;
+      box.high[i].at_mid = box.high[i].at_mid - tension;
     }
+  }
+
+  /// After add(), and after margins were added: what is known of the midpoint by itself.
+  void look_at_mid(const ProofModel<I>& problem, const Segment& segment, const I& mid, const InverseBound<I>& inverse,
+                   BoxEnclosure<I>& box) {
+    const Model<I>& model = problem.model;
+    at_mid = problem.moving->at(model, segment, mid);
+    const Forms<I, 1> densities = inverse.times(loaded_column(inverse, at_mid->wrench));
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const I& density = densities[i][0].at_mid;
+      const I tension = box.length[i].at_mid * density;
+      box.density[i].at_mid = at_rest[i][0] - density;
+      box.low[i].at_mid = at_rest[i][1] - tension;
+      box.high[i].at_mid = at_rest[i][2] - tension;
+    }
+    for (auto& margin : box.margins) {
+      const auto i = static_cast<std::size_t>(margin.id.cable);
+      if (margin.id.kind == MarginKind::kTensionMin) margin.value.at_mid = box.low[i].at_mid - model.tension_lower[i];
+      if (margin.id.kind == MarginKind::kTensionMax) margin.value.at_mid = model.tension_upper[i] - box.high[i].at_mid;
+    }
+    if (!problem.moving->may_stop()) return;
+    slowed_at_mid = problem.moving->at(model, segment, mid, Speeds::kAny);
+    box.is_slowed_badly = !is_slowed_well(problem, inverse, box);
   }
 
   /// Whether at the midpoint, where it is slowed down, all that is limited is shown to be within its limits.
   [[nodiscard]] bool is_slowed_well(const ProofModel<I>& problem, const InverseBound<I>& inverse,
                                     const BoxEnclosure<I>& box) const {
-    const InertiaByLaw<I>&m = at_mid.by_law, &x = slowed_at_mid->by_law;
+    const InertiaByLaw<I>&m = at_mid->by_law, &x = slowed_at_mid->by_law;
     const Forms<I, 1> by_acceleration = inverse.times(loaded_column(inverse, m.a));
     const Forms<I, 1> by_square = inverse.times(loaded_column(inverse, m.b));
     for (std::size_t i = 0; i < kCables; ++i) {
@@ -334,8 +351,10 @@ struct Inertia {
     return std::ranges::all_of(slowed_at_mid->margins, [](const auto& rate) { return certainly_positive(rate.value); });
   }
 
-  Moving<I> at_mid, over;
-  std::optional<Moving<I>> slowed_at_mid;  ///< where the move may be slowed down
+  Moving<I> over;
+  std::optional<Moving<I>> at_mid;                ///< only after look_at_mid(), as what follows
+  std::optional<Moving<I>> slowed_at_mid;         ///< where the move may be slowed down
+  std::array<std::array<I, 3>, kCables> at_rest;  ///< density, least and greatest tension at the midpoint
 
  private:
   /// D^-1 w_in over the box.
@@ -365,10 +384,19 @@ typename BoxEnclosure<I>::RateMargins rate_margins(const ProofModel<I>& problem,
     at_mid[i] = box.high[i].at_mid;
     over[i] = problem.model.tension_upper[i] - disturbed;
   }
-  typename BoxEnclosure<I>::RateMargins result{inertia.at_mid.margins, inertia.over.margins};
-  problem.moving->add_powers(inertia.at_mid, at_mid, result.at_mid);
+  const Moving<I>& mid = inertia.at_mid ? *inertia.at_mid : inertia.over;
+  typename BoxEnclosure<I>::RateMargins result{mid.margins, inertia.over.margins};
+  problem.moving->add_powers(mid, at_mid, result.at_mid);
   problem.moving->add_powers(inertia.over, over, result.over);
   return result;
+}
+
+/// Whether all over the box everything that is limited is known to be within its limits.
+template <class I>
+bool is_clear(const ProofModel<I>& problem, const BoxEnclosure<I>& box) {
+  const auto is_kept = [](const RateMargin<I>& rate) { return certainly_positive(rate.value); };
+  return box.margins.are_positive() && (!problem.tolerance || box.disturbance) &&
+         (!box.rates || std::ranges::all_of(box.rates->over, is_kept));
 }
 
 /// How far a deviation may change a margin.
@@ -469,9 +497,14 @@ void add_disturbance(const ProofModel<I>& problem, UndisturbedBox<I> undisturbed
   disturb(result);
 }
 
+namespace {
+
+/// enclose_box(). Of a move, `mid` may be left out where the box is proved: then statements about the midpoint are no
+/// sharper than those about the box.
+enum class Midpoint { kAlways, kIfUnproved };
 template <class I>
-BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
-                            int continuation_steps) {
+BoxEnclosure<I> enclose(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
+                        int continuation_steps, Midpoint mid) {
   const Model<I>& model = problem.model;
   const double radius = box.radius();
   const EnclosedBox<I> s = enclose<I>(box);
@@ -514,11 +547,21 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   }
   result.regular = true;
   set_tensions(result);
-  if (inertia) inertia->add(inverse, result);
+  if (inertia) inertia->add(problem, inverse, result);
   add_tension_margins(model, result);
-  if (inertia && inertia->slowed_at_mid) result.is_slowed_badly = !inertia->is_slowed_well(problem, inverse, result);
-  if (inertia) result.rates = rate_margins(problem, *inertia, result);
-  if (!problem.tolerance || !result.margins.are_positive()) return result;
+  if (inertia) {
+    if (result.margins.are_positive()) problem.moving->tighten(model, segment, s.range, inertia->over);
+    result.rates = rate_margins(problem, *inertia, result);
+  }
+  const auto look_at_mid = [&] {
+    if (!inertia || (mid == Midpoint::kIfUnproved && is_clear(problem, result))) return;
+    inertia->look_at_mid(problem, segment, s.mid, inverse, result);
+    result.rates = rate_margins(problem, *inertia, result);
+  };
+  if (!problem.tolerance || !result.margins.are_positive()) {
+    look_at_mid();
+    return result;
+  }
   Vector6<I> wrench = inertia ? Inertia<I>::rest(model.wrench, inertia->over) : model.wrench;
   Vector6<I> change;
   for (int k = 0; k < 6; ++k) change(k) = I(0.0);
@@ -536,16 +579,27 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
                                       wrench,
                                       change};
   add_disturbance(problem, undisturbed, continuation_steps, result);
-  if (!inertia || !result.disturbance) return result;
-  // How far the platform turns does not depend on the load. Once it is known, so is what that changes of the inertia.
-  change = problem.moving->change(inertia->over, I(ProofScalarTraits<I>::symmetric(result.disturbance->turn)));
-  wrench -= change;
-  change = -change;
-  result.disturbance.reset();
-  for (auto& margin : result.margins) margin.disturbed = margin.value.range;
-  add_disturbance(problem, undisturbed, continuation_steps, result);
-  result.rates = rate_margins(problem, *inertia, result);
+  if (!inertia) return result;
+  if (result.disturbance) {
+    // How far the platform turns does not depend on the load. Once it is known, so is what that changes of the inertia.
+    change = problem.moving->change(inertia->over, I(ProofScalarTraits<I>::symmetric(result.disturbance->turn)));
+    wrench -= change;
+    change = -change;
+    result.disturbance.reset();
+    for (auto& margin : result.margins) margin.disturbed = margin.value.range;
+    add_disturbance(problem, undisturbed, continuation_steps, result);
+    result.rates = rate_margins(problem, *inertia, result);
+  }
+  look_at_mid();
   return result;
+}
+
+}  // namespace
+
+template <class I>
+BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
+                            int continuation_steps) {
+  return enclose(problem, segment, box, continuation_steps, Midpoint::kAlways);
 }
 
 template MotionEnclosure<Interval> undisturbed_motion(const ProofModel<Interval>&, const Segment&,
@@ -751,7 +805,8 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
   using Kind = BoxVerdict::Kind;
   using Status = typename MotionEnclosure<I>::Status;
   constexpr int kSmall = 6;  // depth of boxes from which on smaller ones would hardly narrow what deviations may do
-  const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box, continuation_steps);
+  const BoxEnclosure<I> enclosure =
+      enclose(problem, segment, box, continuation_steps, clearance > 0 ? Midpoint::kAlways : Midpoint::kIfUnproved);
   BoxVerdict verdict;
   if (const auto kind = kind_without_motion<I>(enclosure.motion)) {
     verdict.kind = *kind;

@@ -148,32 +148,46 @@ template <class S>
   return sum;
 }
 
-/// What the winches do: L̇ [m/s] and L̈ [m/s²], with v and a of the anchor B_i:
+/// What a winch does: L̇ [m/s] and L̈ [m/s²], with v and a of the anchor B_i:
 ///   L L̇ = d·v,   L L̈ + L̇² = |v|² + d·a.
+template <class S>
+struct WinchRate {
+  S speed, acceleration;
+};
+
+/// @param p_WP, r_WP  the pose
+template <class S>
+[[nodiscard]] WinchRate<S> winch_rate(const Model<S>& model, std::size_t cable, const Vector3<S>& p_WP,
+                                      const Matrix3<S>& r_WP, const Rates<S>& x) {
+  const Vector3<S> arm = turned(r_WP, model.p_PB[cable]);
+  const Vector3<S> v = velocity_at(x, arm), a = acceleration_at(x, arm);
+  S by_speed(0.0), by_acceleration(0.0), square(0.0);
+  Vector3<S> d;
+  for (int k = 0; k < 3; ++k) {
+    d(k) = p_WP(k) + arm(k) - model.p_WA[cable](k);
+    by_speed = by_speed + d(k) * v(k);
+    by_acceleration = by_acceleration + d(k) * a(k);
+    square = square + sqr(v(k));
+  }
+  const S l = length(d);
+  const S speed = by_speed / l;
+  return {speed, (square - sqr(speed) + by_acceleration) / l};
+}
+
+/// Of all winches.
 template <class S>
 struct WinchRates {
   std::array<S, kCables> speed, acceleration;
 };
 
-/// @param p_WP, r_WP  the pose
 template <class S>
 [[nodiscard]] WinchRates<S> winch_rates(const Model<S>& model, const Vector3<S>& p_WP, const Matrix3<S>& r_WP,
                                         const Rates<S>& x) {
   WinchRates<S> result;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const Vector3<S> arm = turned(r_WP, model.p_PB[i]);
-    const Vector3<S> v = velocity_at(x, arm), a = acceleration_at(x, arm);
-    S by_speed(0.0), by_acceleration(0.0), square(0.0);
-    Vector3<S> d;
-    for (int k = 0; k < 3; ++k) {
-      d(k) = p_WP(k) + arm(k) - model.p_WA[i](k);
-      by_speed = by_speed + d(k) * v(k);
-      by_acceleration = by_acceleration + d(k) * a(k);
-      square = square + sqr(v(k));
-    }
-    const S l = length(d);
-    result.speed[i] = by_speed / l;
-    result.acceleration[i] = (square - sqr(result.speed[i]) + by_acceleration) / l;
+    const WinchRate<S> winch = winch_rate(model, i, p_WP, r_WP, x);
+    result.speed[i] = winch.speed;
+    result.acceleration[i] = winch.acceleration;
   }
   return result;
 }

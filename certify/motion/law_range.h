@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How fast a move goes where: enclosures of σ' and σ'' over all times at which the move is on a part of its path, and
-// one time in the middle of these.
+// How fast a move goes where: enclosures of σ' and σ'' over all times at which the move is on a part of its path,
+// halves of these times, and one time in their middle.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "kinematics/time_law.h"
@@ -33,12 +34,38 @@ struct TimeCover {
 
 namespace law_range_detail {
 
-/// σ' and σ'' by u, for u in [from, to]: σ'' is a straight line in u, and σ' moves by no more than it says.
+/// A quadratic polynomial over an interval of the given width, from its values at both ends and its slope at the first:
+/// with β = q(a) + q'(a) (b − a)/2 each q(x) is a mean of q(a), β and q(b), whose weights (1−y)², 2y(1−y) and y² are not
+/// negative, for y = (x − a)/(b − a).
+template <class I>
+I over_interval(const I& at_begin, const I& slope_at_begin, const I& at_end, const I& width) {
+  return hull(hull(at_begin, at_end), at_begin + slope_at_begin * width / I(2.0));
+}
+
+/// The derivatives by u of a piece at u.
+template <class I>
+struct PieceRates {
+  I first, second, third;
+  PieceRates(const Polynomial<I>& x, const I& u)
+      : first(x.slope(u)), second(x.c[2] + x.c[2] + u * (I(6.0) * x.c[3])), third(I(6.0) * x.c[3]) {}
+};
+
+/// σ' and σ'' by u, for u in [from, to].
 template <class I>
 LawRange<I> over_part(const Polynomial<I>& x, double from, double to) {
-  const I middle((from + to) / 2), u(from, to);
-  const I acceleration = x.c[2] + x.c[2] + u * (I(6.0) * x.c[3]);
-  return {x.slope(middle) + acceleration * (u - middle), acceleration};
+  const PieceRates<I> begin(x, I(from)), end(x, I(to));
+  return {over_interval<I>(begin.first, begin.second, end.first, I(to) - I(from)), hull(begin.second, end.second)};
+}
+
+/// f(x, from, to) for the parts of all pieces at these times, joined.
+template <class I, class F>
+auto over_times(const TimeLaw& law, const TimeCover& times, F f, auto join) {
+  const auto [first, last, u1, u2] = times;
+  auto result = f(law_polynomial<I>(law, first), u1, first == last ? u2 : 1);
+  for (std::size_t k = first + 1; k <= last; ++k) {
+    result = join(result, f(law_polynomial<I>(law, k), 0.0, k == last ? u2 : 1));
+  }
+  return result;
 }
 
 /// A k in [0, n] for which is_before(k) holds, or 0; the greatest one where none of them holds behind one that does
@@ -90,27 +117,59 @@ template <class I>
 /// Over these times.
 template <class I>
 [[nodiscard]] LawRange<I> law_range(const TimeLaw& law, const TimeCover& times) {
-  const auto [first, last, u1, u2] = times;
-  LawRange<I> result = law_range_detail::over_part(law_polynomial<I>(law, first), u1, first == last ? u2 : 1);
-  for (std::size_t k = first + 1; k <= last; ++k) {
-    const LawRange<I> next = law_range_detail::over_part(law_polynomial<I>(law, k), 0, k == last ? u2 : 1);
-    result = {hull(result.rate, next.rate), hull(result.acceleration, next.acceleration)};
-  }
+  const LawRange<I> by_u = law_range_detail::over_times<I>(
+      law, times, [](const auto&... part) { return law_range_detail::over_part<I>(part...); },
+      [](const LawRange<I>& a, const LawRange<I>& b) {
+        return LawRange<I>{hull(a.rate, b.rate), hull(a.acceleration, b.acceleration)};
+      });
   const I inverse = I(1.0) / I(law.step_s);
-  return {result.rate * inverse, result.acceleration * sqr(inverse)};
+  return {by_u.rate * inverse, by_u.acceleration * sqr(inverse)};
+}
+
+/// σ'' + v σ' over these times [1/s²], a quadratic polynomial on each piece: where a move that brakes is next to a limit,
+/// one of them falls where the other rises. @param v  [1/s]
+template <class I>
+[[nodiscard]] I law_braking(const TimeLaw& law, const TimeCover& times, const I& v) {
+  const I share = v * I(law.step_s);
+  const I by_u = law_range_detail::over_times<I>(
+      law, times,
+      [&](const Polynomial<I>& x, double from, double to) {
+        const law_range_detail::PieceRates<I> a(x, I(from)), b(x, I(to));
+        return law_range_detail::over_interval<I>(a.second + share * a.first, a.third + share * a.second,
+                                                  b.second + share * b.first, I(to) - I(from));
+      },
+      [](const I& a, const I& b) { return hull(a, b); });
+  return by_u * sqr(I(1.0) / I(law.step_s));
+}
+
+/// In pieces, all of these are multiples of 2^-40 below 2^16 while covers are halved no more than 16 times, and exact.
+[[nodiscard]] inline double middle_of(const TimeCover& times) {
+  return (static_cast<double>(times.first) + times.u1 + static_cast<double>(times.last) + times.u2) / 2;
+}
+
+/// Both halves of these times.
+[[nodiscard]] inline std::array<TimeCover, 2> halves(const TimeCover& times) {
+  const double middle = middle_of(times);
+  const std::size_t k = std::min(static_cast<std::size_t>(middle), times.last);
+  const double u = middle - static_cast<double>(k);
+  return {{{times.first, k, times.u1, u}, {k, times.last, u, times.u2}}};
+}
+
+/// Places at these times, as σ never falls.
+template <class I>
+[[nodiscard]] I law_places(const TimeLaw& law, const TimeCover& times) {
+  return hull(law_polynomial<I>(law, times.first).at(I(times.u1)), law_polynomial<I>(law, times.last).at(I(times.u2)));
 }
 
 /// The middle of these times; nothing where it is not certain that σ is in `s` then.
 template <class I>
 [[nodiscard]] std::optional<LawInstant<I>> law_instant(const TimeLaw& law, const TimeCover& times, const I& s) {
-  const auto [first, last, u1, u2] = times;
-  // In pieces, all of these are multiples of 2^-21 below 2^16, and exact.
-  const double from = static_cast<double>(first) + u1, to = static_cast<double>(last) + u2, middle = (from + to) / 2;
+  const double from = static_cast<double>(times.first) + times.u1, middle = middle_of(times);
   const std::size_t k = std::min(static_cast<std::size_t>(middle), law.pieces() - 1);
   const I u(middle - static_cast<double>(k));
   const Polynomial<I> piece = law_polynomial<I>(law, k);
   const I step(law.step_s);
-  LawInstant<I> result{piece.at(u), piece.slope(u) / step, step * I((to - from) / 2)};
+  LawInstant<I> result{piece.at(u), piece.slope(u) / step, step * I(middle - from)};
   const bool is_inside = result.place.lower() >= s.lower() && result.place.upper() <= s.upper();
   return is_inside ? std::optional(result) : std::nullopt;
 }

@@ -28,10 +28,6 @@ MovingModel<I>::MovingModel(const Problem& problem) : rates_(problem), bodies_(m
   add({RateKind::kLoadAcceleration}, text.load_acceleration_m_s2);
   add({RateKind::kLoadAngularSpeed}, text.load_angular_speed_rad_s);
   add({RateKind::kLoadAngularAcceleration}, text.load_angular_acceleration_rad_s2);
-  has_speeds_ = !powers_.empty() || std::ranges::any_of(limits_, [](const Limit& limit) {
-    return limit.id.kind == RateKind::kWinchSpeed || limit.id.kind == RateKind::kLoadSpeed ||
-           limit.id.kind == RateKind::kLoadAngularSpeed;
-  });
 }
 
 namespace {
@@ -43,17 +39,8 @@ LawRange<I> slowed(const LawRange<I>& law, const I& slowing) {
   return {law.rate * share, law.acceleration * share + law.rate * hull(-slowing, slowing)};
 }
 
-/// All magnitudes that are limited are convex in (s̈, ṡ²), or rise with ṡ: none is larger than at one of these.
-template <class I>
-std::vector<LawRange<I>> corners_of(const LawRange<I>& law) {
-  std::vector<LawRange<I>> corners;
-  const I none(0.0);
-  for (const I& rate : {none, I(law.rate.upper())}) {
-    for (const I& acceleration : {I(law.acceleration.lower()), I(law.acceleration.upper())}) {
-      corners.push_back({rate, acceleration});
-    }
-  }
-  return corners;
+bool is_speed(RateKind kind) {
+  return kind == RateKind::kWinchSpeed || kind == RateKind::kLoadSpeed || kind == RateKind::kLoadAngularSpeed;
 }
 
 /// ± x.
@@ -81,51 +68,184 @@ I magnitude_within(const Vector3<I>& v0, const Vector3<I>& v, const Vector3<I>& 
   return sqrt(hull(I(0.0), I(square.upper())));
 }
 
+/// `size`, but not above `most`.
+template <class I>
+I no_more(const I& size, const I& most) {
+  return most.upper() < size.upper() ? hull(I(size.lower()), I(most.upper())) : size;
+}
+
 }  // namespace
 
+/// Magnitudes of rates over a part of a box, at one (s̈, ṡ²) or all of a range. Those of a winch are enclosed when they
+/// are asked for.
 template <class I>
-std::optional<typename MovingModel<I>::Fastest> MovingModel<I>::fastest(const Model<I>& model, const Segment& segment,
-                                                                        const I& range, const PathRates<I>& path,
-                                                                        const LawRange<I>& law,
-                                                                        const LawInstant<I>& middle) const {
+class MovingModel<I>::Magnitudes {
+ public:
+  Magnitudes(const Model<I>& model, const PathRates<I>& path, const LawRange<I>& law)
+      : model_(model), path_(path), rates_(by_time(path, law.rate, law.acceleration)) {}
+
+  [[nodiscard]] const Rates<I>& rates() const { return rates_; }
+  /// L̇ and L̈ of a winch.
+  [[nodiscard]] const WinchRate<I>& winch(std::size_t i) {
+    if (!winches_[i]) winches_[i] = winch_rate(model_, i, path_.p, path_.r_WP, rates_);
+    return *winches_[i];
+  }
+
+  [[nodiscard]] I operator()(const RateId& id) {
+    const auto i = static_cast<std::size_t>(id.cable);
+    const auto arm = [&] { return turned(path_.r_WP, model_.p_PM); };
+    switch (id.kind) {
+      case RateKind::kWinchSpeed: return absolute(winch(i).speed);
+      case RateKind::kWinchAcceleration: return absolute(winch(i).acceleration);
+      case RateKind::kLoadSpeed: return norm(velocity_at(rates_, arm()));
+      case RateKind::kLoadAcceleration: return norm(acceleration_at(rates_, arm()));
+      case RateKind::kLoadAngularSpeed: return norm(rates_.angular_velocity);
+      case RateKind::kWinchPower: throw std::logic_error("a power without a tension");
+      case RateKind::kLoadAngularAcceleration: break;
+    }
+    return norm(rates_.angular_acceleration);
+  }
+
+ private:
+  const Model<I>& model_;
+  const PathRates<I>& path_;
+  Rates<I> rates_;
+  std::array<std::optional<WinchRate<I>>, kCables> winches_;
+};
+
+template <class I>
+std::optional<typename MovingModel<I>::Fastest> MovingModel<I>::fastest(const Part& part, Magnitudes& by_law,
+                                                                        const std::array<bool, kCables>& cables,
+                                                                        bool load) const {
+  const I index(static_cast<double>(part.segment.index));
+  const std::optional<LawInstant<I>> middle = law_instant(*part.segment.timing, part.times, I(index + part.range));
+  if (!middle) return std::nullopt;
   // Beside the index, a number of the range may have been rounded: the place has to be in what accelerations are of.
-  const I place = middle.place - I(static_cast<double>(segment.index));
-  if (!(place.lower() >= range.lower() && place.upper() <= range.upper())) return std::nullopt;
-  const PathRates<I> at = rates_.at(segment, place);
-  const Rates<I> all = by_time(path, law.rate, law.acceleration), here = by_time(at, middle.rate, I(0.0));
-  const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, all),
-                      winches_here = winch_rates(model, at.p, at.r_WP, here);
-  const Vector3<I> arm = turned(path.r_WP, model.p_PM), arm_here = turned(at.r_WP, model.p_PM);
+  const I place = middle->place - index;
+  if (!(place.lower() >= part.range.lower() && place.upper() <= part.range.upper())) return std::nullopt;
+  const Model<I>& model = part.model;
+  const PathRates<I>& path = part.path;
+  const PathRates<I> at = rates_.at(part.segment, place);
+  const Rates<I>& all = by_law.rates();
+  const Rates<I> here = by_time(at, middle->rate, I(0.0));
   Fastest result;
   for (std::size_t i = 0; i < kCables; ++i) {
-    result.winch[i] = absolute(winches_here.speed[i] + plus_minus(middle.reach) * winches.acceleration[i]);
+    if (!cables[i]) continue;
+    const I change = plus_minus(middle->reach) * by_law.winch(i).acceleration;
+    result.winch[i] = absolute(winch_rate(model, i, at.p, at.r_WP, here).speed + change);
   }
+  if (!load) return result;
+  const Vector3<I> arm = turned(path.r_WP, model.p_PM), arm_here = turned(at.r_WP, model.p_PM);
   result.load =
-      magnitude_within(velocity_at(here, arm_here), velocity_at(all, arm), acceleration_at(all, arm), middle.reach);
-  result.spin = magnitude_within(here.angular_velocity, all.angular_velocity, all.angular_acceleration, middle.reach);
+      magnitude_within(velocity_at(here, arm_here), velocity_at(all, arm), acceleration_at(all, arm), middle->reach);
+  result.spin = magnitude_within(here.angular_velocity, all.angular_velocity, all.angular_acceleration, middle->reach);
   return result;
 }
 
 template <class I>
-Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range, Speeds speeds) const {
+typename MovingModel<I>::Limits MovingModel<I>::narrow(const Part& part, Limits open, std::vector<I>& sizes) const {
+  const auto is_open = [&](std::size_t n) { return (open >> n & 1U) != 0; };
+  const auto close = [&](std::size_t n) {
+    if (certainly_positive(I(limits_[n].most - sizes[n]))) open &= ~(Limits{1} << n);
+  };
+  Magnitudes at_speed(part.model, part.path, part.law);
+  for (std::size_t n = 0; n < limits_.size(); ++n) {
+    if (is_open(n)) sizes[n] = at_speed(limits_[n].id);
+  }
+  if (part.speeds == Speeds::kAny && slowing_) {
+    const TimeLaw& law = *part.segment.timing;
+    const I &rate = part.law.rate, braking = law_braking<I>(law, part.times, I(-*slowing_)),
+            gaining = law_braking<I>(law, part.times, *slowing_);
+    // At each time all are convex in (τ'², τ''): none is larger than at one of the corners of these.
+    for (const LawRange<I>& corner :
+         {LawRange<I>{rate, braking}, LawRange<I>{rate, gaining}, LawRange<I>{I(0.0), rate * *slowing_}}) {
+      Magnitudes slowed_down(part.model, part.path, corner);
+      for (std::size_t n = 0; n < limits_.size(); ++n) {
+        if (is_open(n) && !is_speed(limits_[n].id.kind)) sizes[n] = hull(sizes[n], slowed_down(limits_[n].id));
+      }
+    }
+  }
+  std::array<bool, kCables> cables{};
+  bool load = false, any = false;
+  for (std::size_t n = 0; n < limits_.size(); ++n) {
+    if (!is_open(n)) continue;
+    close(n);
+    if (!is_open(n) || !is_speed(limits_[n].id.kind)) continue;
+    any = true;
+    if (is_of_winch(limits_[n].id.kind)) {
+      cables[static_cast<std::size_t>(limits_[n].id.cable)] = true;
+    } else {
+      load = true;
+    }
+  }
+  if (!any) return open;
+  const std::optional<Fastest> most = fastest(part, at_speed, cables, load);
+  if (!most) return open;
+  for (std::size_t n = 0; n < limits_.size(); ++n) {
+    if (!is_open(n)) continue;
+    switch (limits_[n].id.kind) {
+      case RateKind::kWinchSpeed:
+        sizes[n] = no_more(sizes[n], most->winch[static_cast<std::size_t>(limits_[n].id.cable)]);
+        break;
+      case RateKind::kLoadSpeed: sizes[n] = no_more(sizes[n], most->load); break;
+      case RateKind::kLoadAngularSpeed: sizes[n] = no_more(sizes[n], most->spin); break;
+      default: continue;
+    }
+    close(n);
+  }
+  return open;
+}
+
+template <class I>
+typename MovingModel<I>::Part MovingModel<I>::part_of(const Model<I>& model, const Segment& segment, const I& range,
+                                                      Speeds speeds) const {
   if (segment.timing == nullptr || !PathRatesModel<I>::knows(segment.law)) {
     throw std::logic_error("a segment without a time law, or of a law whose derivatives are not known");
   }
-  const PathRates<I> path = rates_.at(segment, range);
-  const I places = I(static_cast<double>(segment.index)) + range;
-  const TimeCover times = time_cover(*segment.timing, places);
-  LawRange<I> law = law_range<I>(*segment.timing, times);
-  std::optional<Fastest> most;
-  if (has_speeds_) {
-    const std::optional<LawInstant<I>> middle = law_instant(*segment.timing, times, places);
-    if (middle) most = fastest(model, segment, range, path, law, *middle);
+  const TimeCover times = time_cover(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
+  return {model, segment, times, range, rates_.at(segment, range), law_range<I>(*segment.timing, times), speeds};
+}
+
+/// Whether limits are kept at all of these times at which the move is in `whole.range`. `sizes` grow by what is found.
+template <class I>
+bool MovingModel<I>::are_kept(const Part& whole, const TimeCover& times, Limits open, int depth, Halving& halving,
+                              std::vector<I>& sizes) const {
+  const auto are_halves_kept = [&](Limits limits) {
+    return std::ranges::all_of(
+        halves(times), [&](const TimeCover& half) { return are_kept(whole, half, limits, depth + 1, halving, sizes); });
+  };
+  if (depth < halving.likely) return are_halves_kept(open);
+  const TimeLaw& law = *whole.segment.timing;
+  const I places = law_places<I>(law, times) - I(static_cast<double>(whole.segment.index));
+  const I& range = whole.range;
+  if (places.upper() < range.lower() || places.lower() > range.upper()) return true;  // not at these times
+  const I &begin = places.lower() > range.lower() ? places : range,
+          &end = places.upper() < range.upper() ? places : range;
+  const I here = hull(I(begin.lower()), I(end.upper()));
+  const Part part{whole.model, whole.segment, times, here, rates_.at(whole.segment, here), law_range<I>(law, times),
+                  whole.speeds};
+  std::vector<I> found = sizes;
+  const Limits left = narrow(part, open, found);
+  for (std::size_t n = 0; n < limits_.size(); ++n) {
+    const Limits limit = Limits{1} << n;
+    if ((left & limit) != 0 && certainly_nonpositive(I(limits_[n].most - found[n]))) return false;
+    if ((open & limit) != 0 && (left & limit) == 0) sizes[n] = hull(sizes[n], found[n]);
   }
-  std::vector<LawRange<I>> corners = {law};
-  if (speeds == Speeds::kAny && slowing_) {
-    law = slowed(law, *slowing_);
-    corners = corners_of(law);
+  if (left == 0) {
+    if (++halving.kept % 2 == 0) halving.likely = depth - 1;
+    return true;
   }
+  if (depth == Halving::kMost) return false;
+  halving = {depth + 1, 0};
+  return are_halves_kept(left);
+}
+
+template <class I>
+Moving<I> MovingModel<I>::moving(const Part& part) const {
+  const PathRates<I>& path = part.path;
   Moving<I> result;
+  LawRange<I> law = part.law;
+  if (part.speeds == Speeds::kAny && slowing_) law = slowed(law, *slowing_);
   result.r_WP = path.r_WP;
   result.rates = by_time(path, law.rate, law.acceleration);
   result.wrench = inertial_wrench(bodies_, path.r_WP, result.rates);
@@ -134,53 +254,59 @@ Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, co
     result.by_law = {inertial_wrench(bodies_, path.r_WP, by_time(path, none, one)),
                      inertial_wrench(bodies_, path.r_WP, by_time(path, one, none)), law.acceleration, sqr(law.rate)};
   }
-
-  const Vector3<I> arm = turned(path.r_WP, model.p_PM);
-  const auto rate_of = [&](const RateId& id, const Rates<I>& rates, const WinchRates<I>& winches) -> I {
-    const auto i = static_cast<std::size_t>(id.cable);
-    switch (id.kind) {
-      case RateKind::kWinchSpeed: return absolute(winches.speed[i]);
-      case RateKind::kWinchAcceleration: return absolute(winches.acceleration[i]);
-      case RateKind::kLoadSpeed: return norm(velocity_at(rates, arm));
-      case RateKind::kLoadAcceleration: return norm(acceleration_at(rates, arm));
-      case RateKind::kLoadAngularSpeed: return norm(rates.angular_velocity);
-      case RateKind::kWinchPower: throw std::logic_error("a power without a tension");
-      case RateKind::kLoadAngularAcceleration: break;
-    }
-    return norm(rates.angular_acceleration);
-  };
-  for (const LawRange<I>& corner : corners) {
-    const Rates<I> rates = by_time(path, corner.rate, corner.acceleration);
-    const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, rates);
-    for (std::size_t i = 0; i < kCables; ++i)
-      result.winch_speed[i] = absolute(winches.speed[i]);  // at last the fastest
-    for (std::size_t n = 0; n < limits_.size(); ++n) {
-      const I size = rate_of(limits_[n].id, rates, winches);
-      const I value = limits_[n].most - size;
-      if (&corner == &corners.front()) {
-        result.margins.push_back({limits_[n].id, size, value});
-      } else {
-        result.margins[n].size = hull(result.margins[n].size, size);
-        result.margins[n].value = hull(result.margins[n].value, value);
-      }
-    }
-  }
-  if (!most) return result;
-  const auto cut = [](I& size, const I& other) {
-    if (other.upper() < size.upper()) size = hull(I(size.lower()), I(other.upper()));
-  };
-  for (std::size_t i = 0; i < kCables; ++i) cut(result.winch_speed[i], most->winch[i]);
-  for (RateMargin<I>& margin : result.margins) {
-    switch (margin.id.kind) {
-      case RateKind::kWinchSpeed: cut(margin.size, most->winch[static_cast<std::size_t>(margin.id.cable)]); break;
-      case RateKind::kLoadSpeed: cut(margin.size, most->load); break;
-      case RateKind::kLoadAngularSpeed: cut(margin.size, most->spin); break;
-      default: continue;
-    }
-    const auto limit = std::ranges::find(limits_, margin.id, &Limit::id);
-    margin.value = limit->most - margin.size;
+  if (powers_.empty()) return result;
+  Magnitudes at_speed(part.model, path, part.law);
+  std::array<bool, kCables> cables{};
+  for (const Limit& limit : powers_) cables[static_cast<std::size_t>(limit.id.cable)] = true;
+  const std::optional<Fastest> most = fastest(part, at_speed, cables, false);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    if (!cables[i]) continue;
+    result.winch_speed[i] = at_speed({RateKind::kWinchSpeed, static_cast<int>(i)});
+    if (most) result.winch_speed[i] = no_more(result.winch_speed[i], most->winch[i]);
   }
   return result;
+}
+
+template <class I>
+Moving<I> MovingModel<I>::at_any_time(const Part& part) const {
+  Moving<I> result = moving(part);
+  std::vector<I> sizes(limits_.size(), I(0.0));
+  (void)narrow(part, all_limits(), sizes);
+  add_margins(sizes, result);
+  return result;
+}
+
+template <class I>
+Moving<I> MovingModel<I>::at(const Model<I>& model, const Segment& segment, const I& place, Speeds speeds) const {
+  return at_any_time(part_of(model, segment, place, speeds));
+}
+
+template <class I>
+Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range) const {
+  return at_any_time(part_of(model, segment, range, Speeds::kAny));
+}
+
+template <class I>
+void MovingModel<I>::tighten(const Model<I>& model, const Segment& segment, const I& range, Moving<I>& moving) const {
+  Limits open = 0;
+  for (std::size_t n = 0; n < limits_.size(); ++n) {
+    if (!certainly_positive(moving.margins[n].value)) open |= Limits{1} << n;
+  }
+  if (open == 0) return;
+  const Part part = part_of(model, segment, range, Speeds::kAny);
+  std::vector<I> sizes(limits_.size(), I(0.0));
+  Halving halving;
+  if (!are_kept(part, part.times, open, 0, halving, sizes)) return;
+  for (std::size_t n = 0; n < limits_.size(); ++n) {
+    if ((open >> n & 1U) != 0) moving.margins[n] = {limits_[n].id, sizes[n], limits_[n].most - sizes[n]};
+  }
+}
+
+template <class I>
+void MovingModel<I>::add_margins(const std::vector<I>& sizes, Moving<I>& to) const {
+  for (std::size_t n = 0; n < limits_.size(); ++n) {
+    to.margins.push_back({limits_[n].id, sizes[n], limits_[n].most - sizes[n]});
+  }
 }
 
 template <class I>

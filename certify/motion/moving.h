@@ -6,12 +6,15 @@
 // (kinematics/moving_load.h). As boxes shrink, these enclosures do, in proportion. Speeds are bounded once more, from
 // one time in the middle and the accelerations around it: a product such as that of ṡ and dL/ds can't see that one of
 // them falls where the other rises, and a move at the limit of a speed would take boxes without number.
+// Where a limit is not shown to be kept, these times are halved, and each half is looked at for itself: that takes a
+// small part of what a smaller box takes, of which all else is enclosed anew.
 // Where a move may be slowed down, ṡ is any share of σ', and s̈ what that leaves of σ'' and a change of the share.
 // docs/theory.md, "Moves in time".
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -43,12 +46,12 @@ struct InertiaByLaw {
 /// Which speeds are meant: those of the law, or all at which the move may be run.
 enum class Speeds { kOfLaw, kAny };
 
-/// Over a part of a segment.
+/// At a place, or over a part of a segment.
 template <class I>
 struct Moving {
   Vector6<I> wrench;       ///< w_in about P_m, axes of W [N, N m]
   InertiaByLaw<I> by_law;  ///< the same; only where the move may be slowed down
-  /// Where the speed is any, all above the least value holds at the corners of (s̈, ṡ), which no other exceeds.
+  /// Where the speed is any, of the speeds that no other exceeds.
   std::vector<RateMargin<I>> margins;  ///< of all limits that the problem states, but for those of power
   std::array<I, kCables> winch_speed;  ///< |L̇| when the move is fastest [m/s]
   Matrix3<I> r_WP;
@@ -62,9 +65,13 @@ class MovingModel {
   /// At working_precision(); for Interval under run_upward(). @pre problem.time
   explicit MovingModel(const Problem& problem);
 
-  /// @pre segment.timing, and PathRatesModel::knows(segment.law); the space has no constraints
-  [[nodiscard]] Moving<I> over(const Model<I>& model, const Segment& segment, const I& range,
-                               Speeds speeds = Speeds::kOfLaw) const;
+  /// At one place. @pre segment.timing, and PathRatesModel::knows(segment.law); the space has no constraints
+  [[nodiscard]] Moving<I> at(const Model<I>& model, const Segment& segment, const I& place,
+                             Speeds speeds = Speeds::kOfLaw) const;
+  /// All over a part of the segment, at any speed at which the move may be run. @pre as at()
+  [[nodiscard]] Moving<I> over(const Model<I>& model, const Segment& segment, const I& range) const;
+  /// Bounds the margins of over() that are not positive once more, from parts of the times.
+  void tighten(const Model<I>& model, const Segment& segment, const I& range, Moving<I>& moving) const;
 
   /// Whether a move may be slowed down at any place.
   [[nodiscard]] bool may_stop() const { return slowing_.has_value(); }
@@ -81,20 +88,47 @@ class MovingModel {
     RateId id;
     I most;
   };
+  /// All times at which the move is in a part of a segment, or some of these.
+  struct Part {
+    const Model<I>& model;
+    const Segment& segment;
+    TimeCover times;
+    I range;  ///< where the move is at these times, as far as that part is concerned
+    PathRates<I> path;
+    LawRange<I> law;
+    Speeds speeds;
+  };
   /// No magnitude of a speed is above these while the law is run at its full speed, or slower.
   struct Fastest {
     std::array<I, kCables> winch;
     I load, spin;
   };
-  /// @param middle  in the middle of the times of the box
-  [[nodiscard]] std::optional<Fastest> fastest(const Model<I>& model, const Segment& segment, const I& range,
-                                               const PathRates<I>& path, const LawRange<I>& law,
-                                               const LawInstant<I>& middle) const;
+  using Limits = std::uint32_t;  ///< a set of limits_
+  [[nodiscard]] Limits all_limits() const { return (Limits{1} << limits_.size()) - 1; }
+
+  class Magnitudes;
+
+  [[nodiscard]] Part part_of(const Model<I>& model, const Segment& segment, const I& range, Speeds speeds) const;
+  [[nodiscard]] Moving<I> at_any_time(const Part& part) const;
+  /// All but the margins.
+  [[nodiscard]] Moving<I> moving(const Part& part) const;
+  /// @param by_law  over the part @param cables, load  of which winches, and whether of the load
+  [[nodiscard]] std::optional<Fastest> fastest(const Part& part, Magnitudes& by_law,
+                                               const std::array<bool, kCables>& cables, bool load) const;
+  /// Encloses the rates of the open limits. Returns those of which that does not show that they are kept.
+  [[nodiscard]] Limits narrow(const Part& part, Limits open, std::vector<I>& sizes) const;
+  /// How far the times of a box were halved until the last parts kept their limits: what is likely to do next.
+  struct Halving {
+    static constexpr int kMost = 6;  ///< more take as long as smaller boxes
+    int likely = 1, kept = 0;
+  };
+  [[nodiscard]] bool are_kept(const Part& whole, const TimeCover& times, Limits open, int depth, Halving& halving,
+                              std::vector<I>& sizes) const;
+  void add_margins(const std::vector<I>& sizes, Moving<I>& to) const;
 
   PathRatesModel<I> rates_;
   std::vector<MovingBody<I>> bodies_;
   std::vector<Limit> limits_, powers_;
-  bool has_speeds_ = false;   ///< whether a speed is limited, or a power
   std::optional<I> slowing_;  ///< by which share of its speed a move may be slowed down, at most [1/s]
 };
 

@@ -32,11 +32,7 @@ struct InTime {
   WrenchBeside beside;
 };
 
-/// @throws Undefined where a limit of speeds or accelerations may not be kept.
 InTime in_time(const Machine& machine, Moving at) {
-  for (const RateMargin& margin : at.margins) {
-    if (!certainly_positive(margin.value)) throw Undefined("a limit of speeds or accelerations may not be kept");
-  }
   WrenchBeside beside{at.beside(machine), at.change_by_turn};
   return {std::move(at), std::move(beside)};
 }
@@ -114,6 +110,7 @@ Bounds prove_box(const Machine& machine, const Problem& problem, const Path& pat
     loss = loss_to_deviations(at, nullptr);
     result = bounds_at(at, nullptr, loss);
   } else {
+    require_limits_in_time(machine, problem, path, k, box);
     for (Moving& at_corner : moving_at_extremes(machine, problem, path, k, box)) {
       const InTime move = in_time(machine, std::move(at_corner));
       loss = loss_to_deviations(at, &move);

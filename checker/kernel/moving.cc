@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "checker/kernel/curve.h"
 #include "checker/kernel/rotation.h"
@@ -326,52 +327,86 @@ struct OnBox {
   }
 };
 
-/// The corners of all speeds at which the move may be run.
+/// The corners of all speeds at which the move may be run: at each time, of the square of τ' in [0, 1] and of τ''.
 std::vector<Speed> extreme_speeds(const Problem& problem, const Speed& law) {
   if (!problem.time->stopping_time) return {law};
-  const Ball fastest = magnitude(law.rate);
-  const Ball by_slowing = magnitude(fastest / problem.time->stopping_time->evaluate<MeanValueForm>({}).range());
-  const Ball of_law = hull(Ball(), law.acceleration);
+  const Ball by_slowing = law.rate / problem.time->stopping_time->evaluate<MeanValueForm>({}).range();
   std::vector<Speed> corners;
-  for (const Ball& rate : {Ball(), fastest}) {
-    corners.push_back({rate, lowest(of_law) - by_slowing, fastest});
-    corners.push_back({rate, highest(of_law) + by_slowing, fastest});
+  for (const Ball& change : {by_slowing, -by_slowing}) {
+    corners.push_back({Ball(), change, law.fastest});
+    corners.push_back({law.rate, law.acceleration + change, law.fastest});
   }
   return corners;
 }
 
-Moving at_speed(const Machine& machine, const Problem& problem, const OnBox& on_box, const Speed& speed) {
-  const std::optional<Fastest>& most = on_box.most;
-  const Rates rates(on_box.frame, speed);
-  Moving result;
-  for (const LoadItem& item : problem.items) {
-    if (const auto* weight = std::get_if<Weight>(&item.set)) add_weight(*weight, item, machine, rates, result);
+/// What is said of one of these speeds.
+class AtSpeed {
+ public:
+  AtSpeed(const Machine& machine, const Problem& problem, const OnBox& on_box, const Speed& speed)
+      : machine_(machine), problem_(problem), most_(on_box.most), rates_(on_box.frame, speed) {}
+
+  /// All but the margins.
+  [[nodiscard]] Moving moving() const {
+    Moving result;
+    for (const LoadItem& item : problem_.items) {
+      if (const auto* weight = std::get_if<Weight>(&item.set)) add_weight(*weight, item, machine_, rates_, result);
+    }
+    for (std::size_t i = 0; i < kCables; ++i) {
+      if (problem_.time->winch_power[i]) result.winch_speed[i] = fast(rates_.fastest(length(machine_, rates_, i)), i);
+    }
+    return result;
   }
 
-  const auto size = [](const Ball& x) { return hull(least_magnitude(x), magnitude(x)); };
-  const auto no_more = [&](const Ball& x, const Ball& than) {
-    return certainly_positive(highest(x) - than) ? hull(lowest(x), than) : x;
-  };
-  const auto add = [&](RateKind kind, std::size_t cable, const auto& magnitude_of_rate) {
-    if (!problem.time->of(kind, cable)) return;
-    const Ball rate = magnitude_of_rate();
-    result.margins.push_back({kind, cable, rate, rate_limit(problem, kind, cable) - rate});
-  };
-  for (std::size_t i = 0; i < kCables; ++i) {
-    const auto fast = [&](const Ball& speed_of) {
-      return most ? no_more(size(speed_of), most->winch[i]) : size(speed_of);
+  [[nodiscard]] std::vector<RateMargin> margins() const {
+    std::vector<RateMargin> result;
+    const auto add = [&](RateKind kind, std::size_t cable, const auto& magnitude_of_rate) {
+      if (!problem_.time->of(kind, cable)) return;
+      const Ball rate = magnitude_of_rate();
+      result.push_back({kind, cable, rate, rate_limit(problem_, kind, cable) - rate});
     };
-    add(RateKind::kWinchSpeed, i, [&] { return fast(rates.speed(length(machine, rates, i))); });
-    add(RateKind::kWinchAcceleration, i, [&] { return size(rates.acceleration(length(machine, rates, i))); });
-    if (problem.time->winch_power[i]) result.winch_speed[i] = fast(rates.fastest(length(machine, rates, i)));
+    for (std::size_t i = 0; i < kCables; ++i) {
+      add(RateKind::kWinchSpeed, i, [&] { return fast(rates_.speed(length(machine_, rates_, i)), i); });
+      add(RateKind::kWinchAcceleration, i, [&] { return size(rates_.acceleration(length(machine_, rates_, i))); });
+    }
+    const auto no_more_than = [&](const Ball& x, Ball Fastest::*than) { return most_ ? no_more(x, *most_.*than) : x; };
+    const Vector3<SecondJet> load_point = rates_.point(machine_.load_point);
+    add(RateKind::kLoadSpeed, 0,
+        [&] { return no_more_than(length_range(rates_.velocity(load_point)), &Fastest::load); });
+    add(RateKind::kLoadAcceleration, 0, [&] { return length_range(rates_.acceleration(load_point)); });
+    add(RateKind::kLoadAngularSpeed, 0, [&] { return no_more_than(length_range(rates_.spin), &Fastest::spin); });
+    add(RateKind::kLoadAngularAcceleration, 0, [&] { return length_range(rates_.spin_change); });
+    return result;
   }
-  const auto no_more_than = [&](const Ball& x, Ball Fastest::*than) { return most ? no_more(x, (*most).*than) : x; };
-  const Vector3<SecondJet> load_point = rates.point(machine.load_point);
-  add(RateKind::kLoadSpeed, 0, [&] { return no_more_than(length_range(rates.velocity(load_point)), &Fastest::load); });
-  add(RateKind::kLoadAcceleration, 0, [&] { return length_range(rates.acceleration(load_point)); });
-  add(RateKind::kLoadAngularSpeed, 0, [&] { return no_more_than(length_range(rates.spin), &Fastest::spin); });
-  add(RateKind::kLoadAngularAcceleration, 0, [&] { return length_range(rates.spin_change); });
-  return result;
+
+ private:
+  static Ball size(const Ball& x) { return hull(least_magnitude(x), magnitude(x)); }
+  static Ball no_more(const Ball& x, const Ball& than) {
+    return certainly_positive(highest(x) - than) ? hull(lowest(x), than) : x;
+  }
+  [[nodiscard]] Ball fast(const Ball& speed, std::size_t cable) const {
+    return most_ ? no_more(size(speed), most_->winch[cable]) : size(speed);
+  }
+
+  const Machine& machine_;
+  const Problem& problem_;
+  const std::optional<Fastest>& most_;
+  Rates rates_;
+};
+
+/// Whether all limits but those of power are shown to be kept over a box, or over all parts of it.
+bool are_kept(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, Box box, int halvings) {
+  const OnBox on_box(machine, problem, path, k, box);
+  const auto keeps = [&](const Speed& speed) {
+    return std::ranges::all_of(AtSpeed(machine, problem, on_box, speed).margins(),
+                               [](const RateMargin& margin) { return certainly_positive(margin.value); });
+  };
+  if (std::ranges::all_of(extreme_speeds(problem, on_box.law), keeps)) return true;
+  if (halvings == 0) return false;
+  const mpq_class begin = box.begin, middle = (box.begin + box.end) / 2;
+  box.begin = middle;
+  if (!are_kept(machine, problem, path, k, box, halvings - 1)) return false;
+  box.end = std::exchange(box.begin, begin);
+  return are_kept(machine, problem, path, k, box, halvings - 1);
 }
 
 }  // namespace
@@ -382,7 +417,10 @@ Ball rate_limit(const Problem& problem, RateKind kind, std::size_t cable) {
 
 Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box) {
   const OnBox on_box(machine, problem, path, k, box);
-  return at_speed(machine, problem, on_box, on_box.law);
+  const AtSpeed at_speed(machine, problem, on_box, on_box.law);
+  Moving result = at_speed.moving();
+  result.margins = at_speed.margins();
+  return result;
 }
 
 std::vector<Moving> moving_at_extremes(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
@@ -390,9 +428,16 @@ std::vector<Moving> moving_at_extremes(const Machine& machine, const Problem& pr
   const OnBox on_box(machine, problem, path, k, box);
   std::vector<Moving> result;
   for (const Speed& speed : extreme_speeds(problem, on_box.law)) {
-    result.push_back(at_speed(machine, problem, on_box, speed));
+    result.push_back(AtSpeed(machine, problem, on_box, speed).moving());
   }
   return result;
+}
+
+void require_limits_in_time(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
+                            const Box& box) {
+  constexpr int kHalvings = 7;  // of the box; what takes more is next to a limit
+  if (are_kept(machine, problem, path, k, box, kHalvings)) return;
+  throw Undefined("a limit of speeds or accelerations may not be kept");
 }
 
 }  // namespace taut::checker

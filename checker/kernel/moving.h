@@ -16,11 +16,13 @@
 // at the rate 2 v v'. What is run slower than the law is slower than this.
 // A winch's power is the greatest tension of its cable, of every load and deviation, times that speed of |d_i|, whose
 // magnitude counts: hoisting and lowering alike.
+// Where a limit of speeds or accelerations is not shown to be kept on a box, its halves are looked at, and theirs: what
+// holds on each of them holds on the box.
 // Where the problem states a stopping time T, the move may be run as z = σ(τ(t)), too, with τ' from 0 to 1 and |τ''| <=
-// 1/T. So ż = σ' τ', and z̈ = σ'' τ'^2 + σ' τ''. At one place all accelerations, w_in and hence every tension are
-// affine
-// in (z̈, ż^2), speeds linear in ż, and the pairs (z̈, ż^2) lie in a rectangle that holds for the whole box: what keeps
-// its limits at its four corners keeps them inside, as limits are intervals and magnitudes convex.
+// 1/T. So ż^2 = u σ'^2 and z̈ = u σ'' + v σ' with u = τ'^2 in [0, 1] and v = τ'' in [-1/T, 1/T].
+// At one time of the law, hence one place, all accelerations, w_in and every tension are affine in (z̈, ż^2), and so in
+// (u, v), and speeds rise with u: what keeps its limits at the four corners of (u, v) keeps them inside, as limits are
+// intervals and magnitudes convex.
 //
 // Bodies of the load, each of mass m with its centre of gravity c and with a diagonal inertia I about it in the axes of
 // P, take from what acts from outside the wrench about P_m
@@ -44,9 +46,10 @@ struct RateMargin {
 };
 
 struct Moving {
-  Vector6<Ball> inertia;            ///< w_in of the commanded motion [N, N m]
-  Vector6<Ball> change_by_turn;     ///< bounds of how much a turn by t <= 1 may change it, over t
-  std::vector<RateMargin> margins;  ///< of each stated limit but those of power, for which tensions are needed
+  Vector6<Ball> inertia;         ///< w_in of the commanded motion [N, N m]
+  Vector6<Ball> change_by_turn;  ///< bounds of how much a turn by t <= 1 may change it, over t
+  /// Of each stated limit but those of power, for which tensions are needed; only by moving().
+  std::vector<RateMargin> margins;
   /// Where that cable's power is limited: the magnitude of the rate of |d_i| when the move is fastest.
   std::array<Ball, kCables> winch_speed;
   /// What acts beside the items and the ellipsoid's spread: w0 less w_in.
@@ -73,5 +76,9 @@ void require_time_law(const Problem& problem, const Path& path);
 /// keeps them. moving() alone where the problem states no stopping time.
 [[nodiscard]] std::vector<Moving> moving_at_extremes(const Machine& machine, const Problem& problem, const Path& path,
                                                      std::size_t k, const Box& box);
+/// Claim: at all of these speeds, limits of speeds and accelerations are kept all over the box. @throws Undefined where
+/// that is not shown.
+void require_limits_in_time(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
+                            const Box& box);
 
 }  // namespace taut::checker

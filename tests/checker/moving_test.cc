@@ -181,6 +181,70 @@ std::optional<Ball> proved_bound(const RandomMove& random) {
   }
 }
 
+/// The move at the time `at` of its law, at a share of its speed that changes at a rate: at t = 0.
+oracle::Move braking(const oracle::Move& move, const BigFloat& at, double share, const BigFloat& change) {
+  return oracle::Move(
+      [=, &move](const BigFloat& t) { return move.pose(at + BigFloat(share) * t + change / BigFloat(2.0) * t * t); });
+}
+
+TEST(KernelMoving, LimitsAreKeptOnLargeBoxesJustWhereParticlesKeepThem) {
+  // A limit a quarter above all that is seen takes parts of so large a box; one 1 % below what is seen is broken.
+  const PrecisionScope oracle(oracle::kMovingBits);
+  Operands operands(57);
+  int parted = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    RandomMove random(operands, 2);
+    Problem problem = to_kernel_in_time(random.machine);
+    const Path path = to_kernel(random.path);
+    const bool may_stop = trial % 2 == 0;
+    const double stopping_s = 0.5;
+    TimeLimits limits;
+    if (may_stop) limits.stopping_time = constant("0.5");
+    const oracle::Move move = testing::oracle_of(random.path);
+    BigFloat fastest(0.0), strongest(0.0), load(0.0);
+    constexpr int kTimes = 24;
+    for (int n = 0; n <= kTimes; ++n) {
+      const BigFloat at = random.time(-1 + 2.0 * n / kTimes);
+      for (const double change : may_stop ? std::vector<double>{-1 / stopping_s, 1 / stopping_s} : std::vector{0.0}) {
+        for (const double share : may_stop ? std::vector{0.0, 0.5, 1.0} : std::vector{1.0}) {
+          const oracle::Move braked = braking(move, at, share, BigFloat(change));
+          const auto [v, a] =
+              braked.winch(oracle::big(random.machine.problem.robot.base_anchors_m[1]),
+                           oracle::big(random.machine.problem.robot.platform_anchors_m[1]), BigFloat(0.0));
+          const auto rates = braked.rates(oracle::big(random.machine.problem.load.point_m), BigFloat(0.0));
+          const oracle::Big3 origin = {BigFloat(0.0), BigFloat(0.0), BigFloat(0.0)};
+          fastest = std::max(fastest, abs(v));
+          strongest = std::max(strongest, abs(a));
+          load = std::max(load, oracle::distance(rates.second, origin));
+        }
+      }
+    }
+    const WorkingPrecision precision(random.box.bits);
+    const Machine machine(problem);
+    const auto keeps = [&](double share) {
+      const auto at = [&](const BigFloat& x) {
+        return constant(testing::MovingMachine::exact_text(share * x.to_double(MPFR_RNDN) + 1e-9));
+      };
+      limits.winch_speed[1] = at(fastest);
+      limits.winch_acceleration[1] = at(strongest);
+      limits.load_acceleration = at(load);
+      problem.time = limits;
+      try {
+        require_limits_in_time(machine, problem, path, random.k, random.box);
+      } catch (const Undefined&) {
+        return false;
+      }
+      return true;
+    };
+    EXPECT_FALSE(keeps(0.99)) << trial;
+    EXPECT_TRUE(keeps(1.25)) << trial;
+    const Moving whole = moving(machine, problem, path, random.k, random.box);
+    const auto is_kept = [](const RateMargin& margin) { return certainly_positive(margin.value); };
+    if (!std::ranges::all_of(whole.margins, is_kept)) ++parted;
+  }
+  EXPECT_GT(parted, 5) << "boxes that are far too large to be proved at one go";
+}
+
 TEST(KernelMoving, BoxesAreProvedWithInertia) {
   const PrecisionScope oracle(oracle::kMovingBits);
   Operands operands(5);
