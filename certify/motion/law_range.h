@@ -35,8 +35,8 @@ struct TimeCover {
 namespace law_range_detail {
 
 /// A quadratic polynomial over an interval of the given width, from its values at both ends and its slope at the first:
-/// with β = q(a) + q'(a) (b − a)/2 each q(x) is a mean of q(a), β and q(b), whose weights (1−y)², 2y(1−y) and y² are not
-/// negative, for y = (x − a)/(b − a).
+/// with β = q(a) + q'(a) (b − a)/2 each q(x) is a mean of q(a), β and q(b), whose weights (1−y)², 2y(1−y) and y² are
+/// not negative, for y = (x − a)/(b − a).
 template <class I>
 I over_interval(const I& at_begin, const I& slope_at_begin, const I& at_end, const I& width) {
   return hull(hull(at_begin, at_end), at_begin + slope_at_begin * width / I(2.0));
@@ -126,8 +126,8 @@ template <class I>
   return {by_u.rate * inverse, by_u.acceleration * sqr(inverse)};
 }
 
-/// σ'' + v σ' over these times [1/s²], a quadratic polynomial on each piece: where a move that brakes is next to a limit,
-/// one of them falls where the other rises. @param v  [1/s]
+/// σ'' + v σ' over these times [1/s²], a quadratic polynomial on each piece: where a move that brakes is next to a
+/// limit, one of them falls where the other rises. @param v  [1/s]
 template <class I>
 [[nodiscard]] I law_braking(const TimeLaw& law, const TimeCover& times, const I& v) {
   const I share = v * I(law.step_s);
