@@ -285,10 +285,17 @@ Densities<I> enclose_densities(const ProofModel<I>& problem, const Matrix3<Slope
 /// Of a move in time: what inertia asks of the cables at the midpoint, and over all of a box.
 template <class I>
 struct Inertia {
-  Inertia(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s)
-      : at_mid(problem.moving->over(problem.model, segment, s.mid)),
-        over(problem.moving->over(problem.model, segment, s.range, Speeds::kAny)) {
-    if (problem.moving->may_stop()) slowed_at_mid = problem.moving->over(problem.model, segment, s.mid, Speeds::kAny);
+  /// Nothing where the motion's rates are not known.
+  [[nodiscard]] static std::optional<Inertia> of(const ProofModel<I>& problem, const Segment& segment,
+                                                 const EnclosedBox<I>& s) {
+    const MovingModel<I>& moving = *problem.moving;
+    std::optional<Moving<I>> at_mid = moving.over(problem.model, segment, s.mid);
+    std::optional<Moving<I>> over = moving.over(problem.model, segment, s.range, Speeds::kAny);
+    if (!at_mid || !over) return std::nullopt;
+    Inertia result{*std::move(at_mid), *std::move(over), std::nullopt};
+    if (!moving.may_stop()) return result;
+    result.slowed_at_mid = moving.over(problem.model, segment, s.mid, Speeds::kAny);
+    return result.slowed_at_mid ? std::optional(std::move(result)) : std::nullopt;
   }
 
   /// w0 − w_in.
@@ -503,7 +510,11 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   if (!inverse.set(geometry.force_density, radius)) return result;
   std::optional<Inertia<I>> inertia;
   if (is_moving) {
-    inertia.emplace(problem, segment, s);
+    inertia = Inertia<I>::of(problem, segment, s);
+    if (!inertia) {
+      result.motion = MotionEnclosure<I>::Status::kUnproved;
+      return result;
+    }
   }
   const Densities<I> densities = enclose_densities(problem, motion.r_WP, inverse, radius, offset, model.wrench);
   if (!densities.are_enclosed) return result;

@@ -10,7 +10,6 @@ namespace taut {
 
 template <class I>
 MovingModel<I>::MovingModel(const Problem& problem) : rates_(problem), bodies_(make_moving_bodies<I>(problem.load)) {
-  if (!problem.space.constraints.empty()) throw InputError("time: got a space with constraints, expected one without");
   if (bodies_.empty()) throw InputError("time: got a load without a mass, expected items of which one has some");
   const TimeText& text = problem.time.value();
   const auto add = [&](RateId id, const TimeText::Limit& limit) {
@@ -91,7 +90,9 @@ std::optional<typename MovingModel<I>::Fastest> MovingModel<I>::fastest(const Mo
   // Beside the index, a number of the range may have been rounded: the place has to be in what accelerations are of.
   const I place = middle.place - I(static_cast<double>(segment.index));
   if (!(place.lower() >= range.lower() && place.upper() <= range.upper())) return std::nullopt;
-  const PathRates<I> at = rates_.at(segment, place);
+  const std::optional<PathRates<I>> at_place = rates_.over(model, segment, place);
+  if (!at_place) return std::nullopt;
+  const PathRates<I>& at = *at_place;
   const Rates<I> all = by_time(path, law.rate, law.acceleration), here = by_time(at, middle.rate, I(0.0));
   const WinchRates<I> winches = winch_rates(model, path.p, path.r_WP, all),
                       winches_here = winch_rates(model, at.p, at.r_WP, here);
@@ -107,11 +108,12 @@ std::optional<typename MovingModel<I>::Fastest> MovingModel<I>::fastest(const Mo
 }
 
 template <class I>
-Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range, Speeds speeds) const {
-  if (segment.timing == nullptr || !PathRatesModel<I>::knows(segment.law)) {
-    throw std::logic_error("a segment without a time law, or of a law whose derivatives are not known");
-  }
-  const PathRates<I> path = rates_.at(segment, range);
+std::optional<Moving<I>> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range,
+                                              Speeds speeds) const {
+  if (segment.timing == nullptr) throw std::logic_error("a segment without a time law");
+  const std::optional<PathRates<I>> rates_by_s = rates_.over(model, segment, range);
+  if (!rates_by_s) return std::nullopt;
+  const PathRates<I>& path = *rates_by_s;
   const I places = I(static_cast<double>(segment.index)) + range;
   const TimeCover times = time_cover(*segment.timing, places);
   LawRange<I> law = law_range<I>(*segment.timing, times);

@@ -18,8 +18,8 @@
 #include "certify/arithmetic/interval.h"
 #include "certify/arithmetic/mp_interval.h"
 #include "certify/motion/law_range.h"
+#include "certify/motion/motion_rates.h"
 #include "kinematics/moving_load.h"
-#include "kinematics/path_rates.h"
 #include "kinematics/time_limits.h"
 
 namespace taut {
@@ -62,9 +62,9 @@ class MovingModel {
   /// At working_precision(); for Interval under run_upward(). @pre problem.time
   explicit MovingModel(const Problem& problem);
 
-  /// @pre segment.timing, and PathRatesModel::knows(segment.law); the space has no constraints
-  [[nodiscard]] Moving<I> over(const Model<I>& model, const Segment& segment, const I& range,
-                               Speeds speeds = Speeds::kOfLaw) const;
+  /// Nothing where the motion is not proved to be known (MotionRates::over()). @pre segment.timing
+  [[nodiscard]] std::optional<Moving<I>> over(const Model<I>& model, const Segment& segment, const I& range,
+                                              Speeds speeds = Speeds::kOfLaw) const;
 
   /// Whether a move may be slowed down at any place.
   [[nodiscard]] bool may_stop() const { return slowing_.has_value(); }
@@ -91,7 +91,7 @@ class MovingModel {
                                                const PathRates<I>& path, const LawRange<I>& law,
                                                const LawInstant<I>& middle) const;
 
-  PathRatesModel<I> rates_;
+  MotionRates<I> rates_;
   std::vector<MovingBody<I>> bodies_;
   std::vector<Limit> limits_, powers_;
   bool has_speeds_ = false;   ///< whether a speed is limited, or a power

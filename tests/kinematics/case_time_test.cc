@@ -257,9 +257,6 @@ TEST(CaseTime, IsRefusedWithPlaceFieldAndValue) {
 }
 
 TEST(CaseTime, IsRefusedBesideWhatItDoesNotGoWith) {
-  Sections implicit;
-  implicit.space = "space:\n  implicit: [\"px - py\"]\n";
-  expect_rejected(implicit, "crane.yaml:15:13: space.implicit: got [px - py], expected no constraints beside 'time'");
   Sections massless;
   massless.load =
       "load:\n"
