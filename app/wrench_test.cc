@@ -159,7 +159,7 @@ WrenchTest::WrenchTest(const Problem& problem)
       }
     }
   }
-  if (!problem.time || !problem.space.constraints.empty()) return;
+  if (!problem.time) return;
   rates_.emplace(problem);
   bodies_ = make_moving_bodies<double>(problem.load);
   for (const LoadItem& item : problem.load.items) {

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/path_rates.h"
 #include "kinematics/pose_conversion.h"
+#include "kinematics/rates_sampler.h"
 #include "kinematics/time_law.h"
 #include "problem/problem.h"
 
@@ -87,7 +87,7 @@ class WrenchTest {
   Model<double> model_;
   LoadText load_;
   ToleranceNumbers tolerances_;
-  std::optional<PathRatesModel<double>> rates_;  ///< of a space without constraints
+  std::optional<RatesSampler> rates_;  ///< where the problem limits moves in time
   std::vector<MovingBody<double>> bodies_;
   std::vector<std::array<double, 2>> body_ranges_;  ///< half the range of each mass [kg], and ρ [m]
   double slowing_ = 0;                              ///< greatest |τ''| of a move that may be slowed down [1/s]

@@ -55,8 +55,8 @@ checker::Law to_kernel(Interpolation law) {
 /// Which segment of to_kernel(segment) it is.
 std::size_t index_in_kernel(const Segment& segment) { return segment.timing == nullptr ? 0 : segment.index; }
 
-/// A path that is this one segment; of a move, with a waypoint in place of each earlier segment, as the law knows the
-/// segment by its number.
+/// A path that is this one segment; of a move, with a waypoint (and tubes) in place of each earlier segment, as the law
+/// knows the segment by its number.
 checker::Path to_kernel(const Segment& segment, bool has_constraints) {
   checker::Path path;
   path.law = to_kernel(segment.law);
@@ -68,10 +68,12 @@ checker::Path to_kernel(const Segment& segment, bool has_constraints) {
   for (const Waypoint* control : segment.controls()) {
     path.waypoints.push_back({control->x, control->half_turns, control->normals});
   }
-  if (has_constraints) path.tubes = {segment.tube};
+  const std::size_t k = index_in_kernel(segment);
+  if (has_constraints) path.tubes.assign(k + 1, segment.tube);
   if (segment.law == Interpolation::kCableLengths) {
-    path.pose_tubes = {{segment.pose_tube.position, segment.pose_tube.turn}};
-    std::vector<checker::InnerPose>& inner = path.inner_poses.emplace_back();
+    path.pose_tubes.assign(k + 1, {segment.pose_tube.position, segment.pose_tube.turn});
+    path.inner_poses.resize(k + 1);
+    std::vector<checker::InnerPose>& inner = path.inner_poses.back();
     for (const InnerPose& pose : segment.inner_poses) {
       inner.push_back({mpq_class(pose.s), pose.x, {pose.tube.position, pose.tube.turn}});
     }

@@ -285,8 +285,13 @@ Densities<I> enclose_densities(const ProofModel<I>& problem, const Matrix3<Slope
 /// Of a move in time: what inertia asks of the cables over all of a box, and at its midpoint where that is asked for.
 template <class I>
 struct Inertia {
-  Inertia(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s)
-      : over(problem.moving->over(problem.model, segment, s.range)) {}
+  /// Nothing where the motion's rates are not known.
+  [[nodiscard]] static std::optional<Inertia> of(const ProofModel<I>& problem, const Segment& segment,
+                                                 const EnclosedBox<I>& s) {
+    std::optional<Moving<I>> over = problem.moving->over(problem.model, segment, s.range);
+    if (!over) return std::nullopt;
+    return Inertia{*std::move(over)};
+  }
 
   /// w0 − w_in.
   [[nodiscard]] static Vector6<I> rest(const Vector6<I>& w0, const Moving<I>& moving) {
@@ -316,6 +321,8 @@ struct Inertia {
                    BoxEnclosure<I>& box) {
     const Model<I>& model = problem.model;
     at_mid = problem.moving->at(model, segment, mid);
+    box.is_slowed_badly = problem.moving->may_stop();
+    if (!at_mid) return;
     const Forms<I, 1> densities = inverse.times(loaded_column(inverse, at_mid->wrench));
     for (std::size_t i = 0; i < kCables; ++i) {
       const I& density = densities[i][0].at_mid;
@@ -331,7 +338,7 @@ struct Inertia {
     }
     if (!problem.moving->may_stop()) return;
     slowed_at_mid = problem.moving->at(model, segment, mid, Speeds::kAny);
-    box.is_slowed_badly = !is_slowed_well(problem, inverse, box);
+    box.is_slowed_badly = !slowed_at_mid || !is_slowed_well(problem, inverse, box);
   }
 
   /// Whether at the midpoint, where it is slowed down, all that is limited is shown to be within its limits.
@@ -352,9 +359,9 @@ struct Inertia {
   }
 
   Moving<I> over;
-  std::optional<Moving<I>> at_mid;                ///< only after look_at_mid(), as what follows
-  std::optional<Moving<I>> slowed_at_mid;         ///< where the move may be slowed down
-  std::array<std::array<I, 3>, kCables> at_rest;  ///< density, least and greatest tension at the midpoint
+  std::optional<Moving<I>> at_mid{};                ///< only after look_at_mid(), as what follows
+  std::optional<Moving<I>> slowed_at_mid{};         ///< where the move may be slowed down
+  std::array<std::array<I, 3>, kCables> at_rest{};  ///< density, least and greatest tension at the midpoint
 
  private:
   /// D^-1 w_in over the box.
@@ -536,7 +543,11 @@ BoxEnclosure<I> enclose(const ProofModel<I>& problem, const Segment& segment, co
   if (!inverse.set(geometry.force_density, radius)) return result;
   std::optional<Inertia<I>> inertia;
   if (is_moving) {
-    inertia.emplace(problem, segment, s);
+    inertia = Inertia<I>::of(problem, segment, s);
+    if (!inertia) {
+      result.motion = MotionEnclosure<I>::Status::kUnproved;
+      return result;
+    }
   }
   const Densities<I> densities = enclose_densities(problem, motion.r_WP, inverse, radius, offset, model.wrench);
   if (!densities.are_enclosed) return result;

@@ -112,9 +112,13 @@ ConstraintFunctions::ReferencePoint ConstraintFunctions::reference_point(const S
   return result;
 }
 
-std::optional<double> ConstraintFunctions::deviation(const Segment& segment, double s) const {
+std::optional<ConstraintFunctions::Vector> ConstraintFunctions::unknowns(const Segment& segment, double s) const {
   const ReferencePoint at = reference_point(segment, s);
-  const std::optional<Vector> y = project(at.lambda, at.normals);
+  return project(at.lambda, at.normals);
+}
+
+std::optional<double> ConstraintFunctions::deviation(const Segment& segment, double s) const {
+  const std::optional<Vector> y = unknowns(segment, s);
   if (!y) return std::nullopt;
   return y->lpNorm<Eigen::Infinity>();
 }

@@ -42,7 +42,9 @@ class ConstraintFunctions {
   /// fails.
   [[nodiscard]] std::optional<Vector> nearest(const Vector& lambda) const;
 
-  /// max |y_i| of the motion (segment.h) at s; none where there is none.
+  /// y of the motion (segment.h) at s; none where there is none.
+  [[nodiscard]] std::optional<Vector> unknowns(const Segment& segment, double s) const;
+  /// max |y_i| of it.
   [[nodiscard]] std::optional<double> deviation(const Segment& segment, double s) const;
   /// ℓ(s) + N(s) y(s); ℓ(s) where there is no y.
   [[nodiscard]] std::vector<double> parameters(const Segment& segment, double s) const;

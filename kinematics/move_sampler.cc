@@ -7,8 +7,7 @@
 namespace taut {
 
 bool is_in_time(const Problem& problem, const Path& path) {
-  return problem.time && path.timing && path.timing->pieces() > 0 && path.segments() > 0 &&
-         problem.space.constraints.empty() && PathRatesModel<double>::knows(path.interpolation);
+  return problem.time && path.timing && path.timing->pieces() > 0 && path.segments() > 0;
 }
 
 double MoveSample::size(RateId id) const {

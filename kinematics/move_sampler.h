@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinematics/moving_load.h"
-#include "kinematics/path_rates.h"
+#include "kinematics/rates_sampler.h"
 #include "kinematics/statics.h"
 #include "kinematics/time_law.h"
 #include "kinematics/time_limits.h"
@@ -36,7 +36,7 @@ struct MoveSample {
 
 class MoveSampler {
  public:
-  /// @throws InputError if the problem has no model in doubles. @pre the space has no constraints
+  /// @throws InputError if the problem has no model in doubles.
   explicit MoveSampler(const Problem& problem);
 
   /// @param time_s  what is beyond the move is taken for the nearest end
@@ -50,7 +50,7 @@ class MoveSampler {
 
  private:
   Model<double> model_;
-  PathRatesModel<double> rates_;
+  RatesSampler rates_;
   std::vector<MovingBody<double>> bodies_;
 };
 

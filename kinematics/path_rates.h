@@ -39,7 +39,36 @@ template <class S>
   return x.partial[0].partial[0];
 }
 
-/// The motions of a space without constraints, along straight segments and splines of its parameters.
+/// A polynomial in s with its derivatives, for every s in `range`.
+template <class S>
+[[nodiscard]] SecondJet<S> second_jet(const Polynomial<S>& x, const S& range) {
+  const S curvature = x.cubic ? S(x.c[2] + x.c[2] + range * (S(6.0) * x.c[3])) : S(0.0);
+  return second_jet<S>(x.at(range), x.slope(range), curvature);
+}
+
+/// Of p(s) and R(s), and [w] = R' Rᵀ.
+template <class S>
+[[nodiscard]] PathRates<S> path_rates(const Vector3<SecondJet<S>>& p, const Matrix3<SecondJet<S>>& r) {
+  PathRates<S> result;
+  for (int k = 0; k < 3; ++k) {
+    result.p(k) = value_of(p(k));
+    result.p1(k) = first_of(p(k));
+    result.p2(k) = second_of(p(k));
+    for (int l = 0; l < 3; ++l) result.r_WP(k, l) = value_of(r(k, l));
+  }
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 2) % 3, j = (k + 1) % 3;
+    result.w(k) = S(0.0);
+    result.w1(k) = S(0.0);
+    for (int l = 0; l < 3; ++l) {
+      result.w(k) = result.w(k) + first_of(r(i, l)) * value_of(r(j, l));
+      result.w1(k) = result.w1(k) + second_of(r(i, l)) * value_of(r(j, l)) + first_of(r(i, l)) * first_of(r(j, l));
+    }
+  }
+  return result;
+}
+
+/// The poses of a space as functions of its parameters.
 template <class S>
 class PathRatesModel {
  public:
@@ -47,41 +76,21 @@ class PathRatesModel {
   explicit PathRatesModel(const Problem& problem)
       : pose_(pose_tape(problem)), angles_(make_angles<S>(problem.space.angles)) {}
 
-  /// Whether at() is defined for segments of this law.
-  [[nodiscard]] static bool knows(Interpolation law) {
-    return law == Interpolation::kStraight || law == Interpolation::kCubicBSpline;
+  /// Where the parameters are these functions of s. For an enclosing scalar void if a fault was raised.
+  [[nodiscard]] PathRates<S> of(std::span<const SecondJet<S>> parameters) const {
+    const Pose<SecondJet<S>> pose = evaluate_pose(pose_, parameters);
+    const Angles<Jet<S, 1>> angles = constant(angles_);
+    return path_rates<S>(pose.p_WP, rotation(angles, pose.angles));
   }
 
-  /// For every s in `range` [0, 1]. For an enclosing scalar void if a fault was raised. @pre knows(segment.law)
-  [[nodiscard]] PathRates<S> at(const Segment& segment, const S& range) const {
-    using J = SecondJet<S>;
-    std::vector<J> parameters;
+  /// Along ℓ itself, for every s in `range` [0, 1]: the motion of a space without constraints.
+  /// @pre the segment's law runs through parameters
+  [[nodiscard]] PathRates<S> along_curve(const Segment& segment, const S& range) const {
+    std::vector<SecondJet<S>> parameters;
     for (std::size_t j = 0; j < segment.control[0]->x.size(); ++j) {
-      const Polynomial<S> x = coordinate_polynomial<S>(segment, j);
-      const S curvature = x.cubic ? S(x.c[2] + x.c[2] + range * (S(6.0) * x.c[3])) : S(0.0);
-      parameters.push_back(second_jet<S>(x.at(range), x.slope(range), curvature));
+      parameters.push_back(second_jet(coordinate_polynomial<S>(segment, j), range));
     }
-    const Pose<J> pose = evaluate_pose(pose_, std::span<const J>(parameters));
-    const Angles<Jet<S, 1>> angles = constant(angles_);
-    const Matrix3<J> r = rotation(angles, pose.angles);
-    PathRates<S> result;
-    for (int k = 0; k < 3; ++k) {
-      result.p(k) = value_of(pose.p_WP(k));
-      result.p1(k) = first_of(pose.p_WP(k));
-      result.p2(k) = second_of(pose.p_WP(k));
-      for (int l = 0; l < 3; ++l) result.r_WP(k, l) = value_of(r(k, l));
-    }
-    // [w] = R' Rᵀ, and its derivative.
-    for (int k = 0; k < 3; ++k) {
-      const int i = (k + 2) % 3, j = (k + 1) % 3;
-      result.w(k) = S(0.0);
-      result.w1(k) = S(0.0);
-      for (int l = 0; l < 3; ++l) {
-        result.w(k) = result.w(k) + first_of(r(i, l)) * value_of(r(j, l));
-        result.w1(k) = result.w1(k) + second_of(r(i, l)) * value_of(r(j, l)) + first_of(r(i, l)) * first_of(r(j, l));
-      }
-    }
-    return result;
+    return of(parameters);
   }
 
  private:

@@ -35,15 +35,11 @@ std::string complaint(const TimeLaw& law, std::size_t segments) {
 
 std::string complaint(const Path& path) {
   const bool is_spline = path.interpolation == Interpolation::kCubicBSpline;
-  if (!is_spline && path.interpolation != Interpolation::kStraight) {
-    return "expected straight segments or a spline through parameters";
-  }
   const TimeLaw& law = path.timing.value();
   if (std::string text = complaint(law, path.segments()); !text.empty()) return text;
   const std::vector<Waypoint>& points = path.waypoints;
   const auto is_still = [&](std::size_t k) {  // the spline at three control points
-    return is_spline && points[k].x == points[k + 1].x && points[k].half_turns == points[k + 1].half_turns &&
-           points[k + 1].x == points[k + 2].x && points[k + 1].half_turns == points[k + 2].half_turns;
+    return is_spline && points[k] == points[k + 1] && points[k + 1] == points[k + 2];
   };
   const auto rests_at = [&](std::size_t place) {
     const auto [from, to] = std::ranges::equal_range(law.controls, static_cast<double>(place));

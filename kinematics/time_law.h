@@ -19,10 +19,10 @@ namespace taut {
 /// What is wrong with a law over so many segments, decided exactly; empty if nothing is.
 [[nodiscard]] std::string complaint(const TimeLaw& law, std::size_t segments);
 
-/// What is wrong with a path's law, decided exactly: that of the law itself; that it is not one of straight segments or
-/// of a spline; or that the move does not rest where it has to. It begins and ends at rest, and rests at every corner
-/// of straight segments: there three control values are equal, so that σ' = σ'' = 0 where σ is that number, or, at the
-/// ends of a spline, three control points are, so that the curve's derivatives are 0.
+/// What is wrong with a path's law, decided exactly: that of the law itself; or that the move does not rest where it
+/// has to. It begins and ends at rest, and but for splines rests at every waypoint: there three control values are
+/// equal, so that σ' = σ'' = 0 where σ is that number, or, at the ends of a spline, three control points are, with
+/// their normals, so that the curve's derivatives are 0.
 /// @pre path.timing
 [[nodiscard]] std::string complaint(const Path& path);
 

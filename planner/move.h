@@ -54,7 +54,7 @@ struct PlannedMove {
   MoveStatistics statistics;
 };
 
-/// @param path  without a law; straight segments or a spline, proved at rest, in a space without constraints
+/// @param path  without a law; straight segments or a spline, proved at rest
 /// @returns the proved move; one that is refuted or undecided where even the slowest try was not proved, or `stop` came
 /// before one was.
 /// @throws InputError if the path has more segments than a law can have corners.

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "kinematics/path_rates.h"
+#include "kinematics/rates_sampler.h"
 
 namespace taut {
 namespace {
@@ -232,8 +232,8 @@ class Run {
   Run(std::size_t first_segment, std::size_t segments, std::array<bool, 2> stands)
       : first_(first_segment), segments_(segments), stands_(stands) {}
 
-  bool sample(const Path& path, const TimedPathProblem& problem, const PoseSampler& sampler,
-              const PathRatesModel<double>& rates, std::size_t count) {
+  bool sample(const Path& path, const TimedPathProblem& problem, const PoseSampler& sampler, const RatesSampler& rates,
+              std::size_t count) {
     const Vector load_point = sampler.model().p_PM;
     const double reach = sampler.model().characteristic_length;
     const auto rates_at = [&](double s) {
@@ -542,12 +542,9 @@ double usage(const TimedPathProblem& problem, const PoseSampler& sampler, const 
 }
 
 std::optional<TimedMove> time_optimal(const Path& path, const TimedPathProblem& problem) {
-  using Rates = PathRatesModel<double>;
-  if (!Rates::knows(path.interpolation) || !problem.problem.space.constraints.empty() || path.segments() == 0) {
-    return std::nullopt;
-  }
+  if (path.segments() == 0) return std::nullopt;
   const PoseSampler sampler(problem.problem);
-  const Rates rates(problem.problem);
+  const RatesSampler rates(problem.problem);
   std::vector<Run> runs = runs_of(path);
   constexpr std::size_t kLeastNodes = 1024;
   TimedMove move;

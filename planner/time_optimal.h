@@ -63,7 +63,7 @@ struct TimedMove {
                            double rate, double acceleration, double s = 0);
 
 /// A spline rests where three control points are equal, a path of straight segments at each waypoint. Nothing where the
-/// path is not feasible at rest, as far as samples tell, its motion is only implied, or no limit bounds the speed.
+/// path is not feasible at rest, as far as samples tell, or no limit bounds the speed.
 [[nodiscard]] std::optional<TimedMove> time_optimal(const Path& path, const TimedPathProblem& problem);
 
 }  // namespace taut

@@ -443,10 +443,6 @@ void validate_time(const Problem& problem) {
   if (!has_mass) {
     throw FieldError("load.items", "no mass", "expected a load with at least one item of kind 'mass' beside 'time'");
   }
-  if (!problem.space.constraints.empty()) {
-    throw FieldError("space.constraints", fmt::format("{} constraints", problem.space.constraints.size()),
-                     "expected no constraints beside 'time'");
-  }
 }
 
 }  // namespace

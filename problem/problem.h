@@ -145,8 +145,8 @@ struct Problem {
 /// with an E that is symmetric and positive definite (exactly), no tolerances of the load beside items, expressions
 /// that parse, poses that by their form agree after a turn of a periodic parameter, a correct `flip`, tolerances >= 0,
 /// bodies (problem/bodies.h), and either no waypoints or at least two, with one finite value for each parameter, within
-/// its range up to rounding. Limits in time (problem/time.h) go with a load of which some has a mass, and with a space
-/// without constraints; only with them have weights a box of inertia.
+/// its range up to rounding. Limits in time (problem/time.h) go with a load of which some has a mass; only with them
+/// have weights a box of inertia.
 /// @throws FieldError
 void validate(const Problem& problem);
 

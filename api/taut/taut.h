@@ -178,8 +178,8 @@ struct Path {
   Interpolation interpolation = Interpolation::kStraight;
   std::vector<Waypoint> waypoints;
   std::vector<std::string> times;  ///< decimals [s], ascending, one a waypoint, or none; no part of any claim
-  /// Of a move in time (docs/moves.md): straight segments or a spline, in a case with the key `time`. Nothing: the path
-  /// is passed slowly.
+  /// Of a move in time (docs/moves.md), in a case with the key `time`; but for splines it rests at each waypoint.
+  /// Nothing: the path is passed slowly.
   std::optional<TimeLaw> timing = {};
 };
 

@@ -62,8 +62,8 @@ class ConstraintSystem {
  public:
   using Vector = std::array<I, K>;
 
-  ConstraintSystem(const typename MotionModel<I>::Constraints& constraints, const Segment& segment,
-                   const Parameters<I>& line, const I& range, const I& mid)
+  ConstraintSystem(const ConstraintModel<I>& constraints, const Segment& segment, const Parameters<I>& line,
+                   const I& range, const I& mid)
       : constraints_(constraints), line_(line) {
     for (std::size_t j = 0; j < line.size(); ++j) {
       for (std::size_t i = 0; i < K; ++i) {
@@ -137,7 +137,7 @@ class ConstraintSystem {
     return lambda;
   }
 
-  const typename MotionModel<I>::Constraints& constraints_;
+  const ConstraintModel<I>& constraints_;
   const Parameters<I>& line_;
   std::array<std::array<SlopeForm<I>, K>, kMaxConstrainedParameters> normal_;
 };
@@ -152,18 +152,19 @@ bool has_normals(const Segment& segment, std::size_t count) {
 }
 
 template <class I, std::size_t K = 1>
-bool implied_parameters(const MotionModel<I>& model, const Segment& segment, const I& range, const I& mid,
-                        const I& offset, Parameters<I>& parameters) {
-  if (model.constraints->count == K) {
+bool implied_parameters(const ConstraintModel<I>& constraints, const Segment& segment, const I& range, const I& mid,
+                        const I& offset, Parameters<I>& parameters, Vector6<I>* unknowns = nullptr) {
+  if (constraints.count == K) {
     const Parameters<I> line = parameters;
-    const ConstraintSystem<K, I> system(*model.constraints, segment, line, range, mid);
+    const ConstraintSystem<K, I> system(constraints, segment, line, range, mid);
     std::array<SlopeForm<I>, K> y;
     if (!ParametricKrawczyk<K, I, ConstraintSystem<K, I>>(system, offset, segment.tube).enclose(y)) return false;
     parameters = system.parameters(y, offset);
+    for (std::size_t i = 0; unknowns != nullptr && i < K; ++i) (*unknowns)(static_cast<int>(i)) = y[i].range;
     return true;
   }
   if constexpr (K + 1 < kMaxConstrainedParameters) {
-    return implied_parameters<I, K + 1>(model, segment, range, mid, offset, parameters);
+    return implied_parameters<I, K + 1>(constraints, segment, range, mid, offset, parameters, unknowns);
   }
   return false;
 }
@@ -202,21 +203,23 @@ Angles<I> make_angles_enclosed(const AnglesText& text) {
 }  // namespace
 
 template <class I>
+ConstraintModel<I> make_constraint_model(const Problem& problem) {
+  const ExpressionTape tape = constraint_tape(problem);
+  return {Evaluator<I>(tape), Evaluator<Jet<I, kMaxConstrainedParameters>>(tape), problem.space.constraints.size()};
+}
+
+template <class I>
 MotionModel<I> make_motion_model(const Problem& problem) {
   MotionModel<I> model{Evaluator<SlopeForm<I>>(pose_tape(problem)), make_angles_enclosed<I>(problem.space.angles),
                        std::nullopt, inner_ranges(problem)};
-  if (const std::size_t count = problem.space.constraints.size(); count > 0) {
-    const ExpressionTape tape = constraint_tape(problem);
-    model.constraints.emplace(typename MotionModel<I>::Constraints{
-        Evaluator<I>(tape), Evaluator<Jet<I, kMaxConstrainedParameters>>(tape), count});
-  }
+  if (!problem.space.constraints.empty()) model.constraints.emplace(make_constraint_model<I>(problem));
   return model;
 }
 
 namespace {
 
-template <class I>
-void tighten(MotionEnclosure<I>& motion, const I& offset) {
+template <class I, template <class> class Pose>
+void tighten(Pose<I>& motion, const I& offset) {
   for (int i = 0; i < 3; ++i) {
     motion.p_WP(i).tighten(offset);
     for (int j = 0; j < 3; ++j) motion.r_WP(i, j).tighten(offset);
@@ -250,12 +253,13 @@ I double_atan2(const I& norm, const I& c) {
   return half + half;
 }
 
+/// Sets R and the turn; false where it may be half a turn.
 template <class I>
-bool follow_geodesic(const Segment& segment, const I& range, const I& mid, MotionEnclosure<I>& motion) {
+bool follow_geodesic(const Segment& segment, const I& range, const I& mid, Geodesic<I>& motion) {
   const Quaternion<I> first = orientation<I>(*segment.control[0]);
   Quaternion<I> turn = conjugate(first) * orientation<I>(*segment.control[1]);
   if (certainly_positive(-turn.w)) turn = {-turn.x, -turn.y, -turn.z, -turn.w};
-  if (!certainly_positive(turn.w)) return false;  // half a turn, or nearly so: not one geodesic
+  if (!certainly_positive(turn.w)) return false;  // nearly so: not one geodesic
   const std::array<I, 3> v = {turn.x, turn.y, turn.z};
   const I square = sqr(v[0]) + sqr(v[1]) + sqr(v[2]);
   const I norm = sqrt(square);
@@ -269,6 +273,9 @@ bool follow_geodesic(const Segment& segment, const I& range, const I& mid, Motio
   const SinCos<SlopeForm<I>> sc = sincos(SlopeForm<I>(angle * mid, angle, angle * range));
   const SlopeForm<I> versine = -sc.cos + I(1.0);
   const Matrix3<I> r_start = rotation(first);
+  for (int i = 0; i < 3; ++i) {
+    motion.turn(i) = angle * (r_start(i, 0) * n[0] + r_start(i, 1) * n[1] + r_start(i, 2) * n[2]);
+  }
   Matrix3<SlopeForm<I>> about;  // I + sin [n] + (1 − cos) [n]^2, and [n]^2 = n n^T − 1
   for (int i = 0; i < 3; ++i) {
     const auto a = static_cast<std::size_t>(i);
@@ -287,17 +294,31 @@ bool follow_geodesic(const Segment& segment, const I& range, const I& mid, Motio
   return true;
 }
 
+}  // namespace
+
 template <class I>
-void between_poses(const Segment& segment, const I& range, const I& mid, const I& offset, MotionEnclosure<I>& motion) {
+std::optional<Geodesic<I>> enclose_geodesic(const Segment& segment, const I& range, const I& mid, const I& offset) {
+  Geodesic<I> result;
   for (int i = 0; i < 3; ++i) {
-    motion.p_WP(i) = over_box(coordinate_polynomial<I>(segment, static_cast<std::size_t>(i)), range, mid);
+    result.p_WP(i) = over_box(coordinate_polynomial<I>(segment, static_cast<std::size_t>(i)), range, mid);
   }
-  if (!follow_geodesic(segment, range, mid, motion)) return;
-  motion.status = MotionEnclosure<I>::Status::kKnown;
-  tighten(motion, offset);
+  if (!follow_geodesic(segment, range, mid, result)) return std::nullopt;
+  tighten(result, offset);
+  return result;
 }
 
-}  // namespace
+template <class I>
+std::optional<ImpliedParameters<I>> enclose_implied_parameters(const ConstraintModel<I>& constraints,
+                                                               const Segment& segment, const I& range, const I& mid,
+                                                               const I& offset) {
+  if (!has_normals(segment, constraints.count)) return std::nullopt;
+  Parameters<I> parameters = line_over_box(segment, range, mid, offset);
+  ImpliedParameters<I> result;
+  for (int k = 0; k < 6; ++k) result.y(k) = I(0.0);
+  if (!implied_parameters(constraints, segment, range, mid, offset, parameters, &result.y)) return std::nullopt;
+  for (const SlopeForm<I>& x : parameters) result.lambda.push_back(x.range);
+  return result;
+}
 
 template <class I>
 MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& segment, const I& range, const I& mid,
@@ -305,14 +326,16 @@ MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& se
   using Status = typename MotionEnclosure<I>::Status;
   MotionEnclosure<I> result;
   if (has_poses(segment.law)) {
-    between_poses(segment, range, mid, offset, result);
+    if (std::optional<Geodesic<I>> geodesic = enclose_geodesic(segment, range, mid, offset)) {
+      result = {Status::kKnown, std::move(geodesic->p_WP), std::move(geodesic->r_WP)};
+    }
     return result;
   }
   Parameters<I> parameters = line_over_box(segment, range, mid, offset);
   result.status = Status::kKnown;
   if (model.constraints) {
     if (!has_normals(segment, model.constraints->count) ||
-        !implied_parameters(model, segment, range, mid, offset, parameters)) {
+        !implied_parameters(*model.constraints, segment, range, mid, offset, parameters)) {
       result.status = Status::kUnproved;
       return result;
     }
@@ -326,6 +349,18 @@ MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& se
   return result;
 }
 
+template ConstraintModel<Interval> make_constraint_model(const Problem&);
+template ConstraintModel<MpInterval> make_constraint_model(const Problem&);
+template std::optional<ImpliedParameters<Interval>> enclose_implied_parameters(const ConstraintModel<Interval>&,
+                                                                               const Segment&, const Interval&,
+                                                                               const Interval&, const Interval&);
+template std::optional<ImpliedParameters<MpInterval>> enclose_implied_parameters(const ConstraintModel<MpInterval>&,
+                                                                                 const Segment&, const MpInterval&,
+                                                                                 const MpInterval&, const MpInterval&);
+template std::optional<Geodesic<Interval>> enclose_geodesic(const Segment&, const Interval&, const Interval&,
+                                                            const Interval&);
+template std::optional<Geodesic<MpInterval>> enclose_geodesic(const Segment&, const MpInterval&, const MpInterval&,
+                                                              const MpInterval&);
 template MotionModel<Interval> make_motion_model(const Problem&);
 template MotionModel<MpInterval> make_motion_model(const Problem&);
 template MotionEnclosure<Interval> enclose_motion(const MotionModel<Interval>&, const Segment&, const Interval&,

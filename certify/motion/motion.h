@@ -21,18 +21,23 @@
 
 namespace taut {
 
+/// The constraints C of a space, ready for scalar I.
+template <class I>
+struct ConstraintModel {
+  Evaluator<I> values;
+  Evaluator<Jet<I, kMaxConstrainedParameters>> jets;
+  std::size_t count;
+};
+/// Constants at working_precision(). @pre the space has constraints
+template <class I>
+[[nodiscard]] ConstraintModel<I> make_constraint_model(const Problem& problem);
+
 /// The space of a problem, ready for scalar I: pose and constraints compiled.
 template <class I>
 struct MotionModel {
   Evaluator<SlopeForm<I>> pose;
   Angles<I> angles;
-  /// C; only in a space with constraints.
-  struct Constraints {
-    Evaluator<I> values;
-    Evaluator<Jet<I, kMaxConstrainedParameters>> jets;
-    std::size_t count;
-  };
-  std::optional<Constraints> constraints;
+  std::optional<ConstraintModel<I>> constraints;
   /// Binary64 numbers certainly inside the closed range of each parameter; all of them where it has none.
   std::vector<std::array<double, 2>> ranges;
 };
@@ -65,11 +70,48 @@ template <class I>
 [[nodiscard]] MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& segment, const I& range,
                                                 const I& mid, const I& offset);
 
+/// What constraints imply over T: y of segment.h, as the first of six unknowns of which the others are 0, and λ.
+template <class I>
+struct ImpliedParameters {
+  Vector6<I> y;
+  std::vector<I> lambda;
+};
+/// Nothing where they are not shown to imply one motion in the tube. Parameters may be out of their ranges. Arguments
+/// as of enclose_motion(). @pre the law runs through parameters
+template <class I>
+[[nodiscard]] std::optional<ImpliedParameters<I>> enclose_implied_parameters(const ConstraintModel<I>& constraints,
+                                                                             const Segment& segment, const I& range,
+                                                                             const I& mid, const I& offset);
+
+/// A geodesic over T. p is straight, so that its slopes are p'; and R' = [turn] R all along.
+template <class I>
+struct Geodesic {
+  Vector3<SlopeForm<I>> p_WP;  ///< [m]
+  Matrix3<SlopeForm<I>> r_WP;
+  Vector3<I> turn;  ///< [rad], axes of W
+};
+/// Nothing where it may be half a turn. Arguments as of enclose_motion().
+template <class I>
+[[nodiscard]] std::optional<Geodesic<I>> enclose_geodesic(const Segment& segment, const I& range, const I& mid,
+                                                          const I& offset);
+
 extern template MotionModel<Interval> make_motion_model(const Problem&);
 extern template MotionModel<MpInterval> make_motion_model(const Problem&);
 extern template MotionEnclosure<Interval> enclose_motion(const MotionModel<Interval>&, const Segment&, const Interval&,
                                                          const Interval&, const Interval&);
 extern template MotionEnclosure<MpInterval> enclose_motion(const MotionModel<MpInterval>&, const Segment&,
                                                            const MpInterval&, const MpInterval&, const MpInterval&);
+
+extern template ConstraintModel<Interval> make_constraint_model(const Problem&);
+extern template ConstraintModel<MpInterval> make_constraint_model(const Problem&);
+extern template std::optional<ImpliedParameters<Interval>> enclose_implied_parameters(const ConstraintModel<Interval>&,
+                                                                                      const Segment&, const Interval&,
+                                                                                      const Interval&, const Interval&);
+extern template std::optional<ImpliedParameters<MpInterval>> enclose_implied_parameters(
+    const ConstraintModel<MpInterval>&, const Segment&, const MpInterval&, const MpInterval&, const MpInterval&);
+extern template std::optional<Geodesic<Interval>> enclose_geodesic(const Segment&, const Interval&, const Interval&,
+                                                                   const Interval&);
+extern template std::optional<Geodesic<MpInterval>> enclose_geodesic(const Segment&, const MpInterval&,
+                                                                     const MpInterval&, const MpInterval&);
 
 }  // namespace taut

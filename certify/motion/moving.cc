@@ -10,7 +10,6 @@ namespace taut {
 
 template <class I>
 MovingModel<I>::MovingModel(const Problem& problem) : rates_(problem), bodies_(make_moving_bodies<I>(problem.load)) {
-  if (!problem.space.constraints.empty()) throw InputError("time: got a space with constraints, expected one without");
   if (bodies_.empty()) throw InputError("time: got a load without a mass, expected items of which one has some");
   const TimeText& text = problem.time.value();
   const auto add = [&](RateId id, const TimeText::Limit& limit) {
@@ -125,7 +124,9 @@ std::optional<typename MovingModel<I>::Fastest> MovingModel<I>::fastest(const Pa
   if (!(place.lower() >= part.range.lower() && place.upper() <= part.range.upper())) return std::nullopt;
   const Model<I>& model = part.model;
   const PathRates<I>& path = part.path;
-  const PathRates<I> at = rates_.at(part.segment, place);
+  const std::optional<PathRates<I>> at_place = rates_.over(model, part.segment, place);
+  if (!at_place) return std::nullopt;
+  const PathRates<I>& at = *at_place;
   const Rates<I>& all = by_law.rates();
   const Rates<I> here = by_time(at, middle->rate, I(0.0));
   Fastest result;
@@ -197,13 +198,13 @@ typename MovingModel<I>::Limits MovingModel<I>::narrow(const Part& part, Limits 
 }
 
 template <class I>
-typename MovingModel<I>::Part MovingModel<I>::part_of(const Model<I>& model, const Segment& segment, const I& range,
-                                                      Speeds speeds) const {
-  if (segment.timing == nullptr || !PathRatesModel<I>::knows(segment.law)) {
-    throw std::logic_error("a segment without a time law, or of a law whose derivatives are not known");
-  }
+std::optional<typename MovingModel<I>::Part> MovingModel<I>::part_of(const Model<I>& model, const Segment& segment,
+                                                                     const I& range, Speeds speeds) const {
+  if (segment.timing == nullptr) throw std::logic_error("a segment without a time law");
+  const std::optional<PathRates<I>> path = rates_.over(model, segment, range);
+  if (!path) return std::nullopt;
   const TimeCover times = time_cover(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
-  return {model, segment, times, range, rates_.at(segment, range), law_range<I>(*segment.timing, times), speeds};
+  return Part{model, segment, times, range, *path, law_range<I>(*segment.timing, times), speeds};
 }
 
 /// Whether limits are kept at all of these times at which the move is in `whole.range`. `sizes` grow by what is found.
@@ -222,8 +223,9 @@ bool MovingModel<I>::are_kept(const Part& whole, const TimeCover& times, Limits 
   const I &begin = places.lower() > range.lower() ? places : range,
           &end = places.upper() < range.upper() ? places : range;
   const I here = hull(I(begin.lower()), I(end.upper()));
-  const Part part{whole.model, whole.segment, times, here, rates_.at(whole.segment, here), law_range<I>(law, times),
-                  whole.speeds};
+  const std::optional<PathRates<I>> path = rates_.over(whole.model, whole.segment, here);
+  if (!path) return false;
+  const Part part{whole.model, whole.segment, times, here, *path, law_range<I>(law, times), whole.speeds};
   std::vector<I> found = sizes;
   const Limits left = narrow(part, open, found);
   for (std::size_t n = 0; n < limits_.size(); ++n) {
@@ -277,13 +279,15 @@ Moving<I> MovingModel<I>::at_any_time(const Part& part) const {
 }
 
 template <class I>
-Moving<I> MovingModel<I>::at(const Model<I>& model, const Segment& segment, const I& place, Speeds speeds) const {
-  return at_any_time(part_of(model, segment, place, speeds));
+std::optional<Moving<I>> MovingModel<I>::at(const Model<I>& model, const Segment& segment, const I& place,
+                                            Speeds speeds) const {
+  const std::optional<Part> part = part_of(model, segment, place, speeds);
+  return part ? std::optional(at_any_time(*part)) : std::nullopt;
 }
 
 template <class I>
-Moving<I> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range) const {
-  return at_any_time(part_of(model, segment, range, Speeds::kAny));
+std::optional<Moving<I>> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range) const {
+  return at(model, segment, range, Speeds::kAny);
 }
 
 template <class I>
@@ -293,10 +297,11 @@ void MovingModel<I>::tighten(const Model<I>& model, const Segment& segment, cons
     if (!certainly_positive(moving.margins[n].value)) open |= Limits{1} << n;
   }
   if (open == 0) return;
-  const Part part = part_of(model, segment, range, Speeds::kAny);
+  const std::optional<Part> part = part_of(model, segment, range, Speeds::kAny);
+  if (!part) return;
   std::vector<I> sizes(limits_.size(), I(0.0));
   Halving halving;
-  if (!are_kept(part, part.times, open, 0, halving, sizes)) return;
+  if (!are_kept(*part, part->times, open, 0, halving, sizes)) return;
   for (std::size_t n = 0; n < limits_.size(); ++n) {
     if ((open >> n & 1U) != 0) moving.margins[n] = {limits_[n].id, sizes[n], limits_[n].most - sizes[n]};
   }

@@ -21,8 +21,8 @@
 #include "certify/arithmetic/interval.h"
 #include "certify/arithmetic/mp_interval.h"
 #include "certify/motion/law_range.h"
+#include "certify/motion/motion_rates.h"
 #include "kinematics/moving_load.h"
-#include "kinematics/path_rates.h"
 #include "kinematics/time_limits.h"
 
 namespace taut {
@@ -65,11 +65,11 @@ class MovingModel {
   /// At working_precision(); for Interval under run_upward(). @pre problem.time
   explicit MovingModel(const Problem& problem);
 
-  /// At one place. @pre segment.timing, and PathRatesModel::knows(segment.law); the space has no constraints
-  [[nodiscard]] Moving<I> at(const Model<I>& model, const Segment& segment, const I& place,
-                             Speeds speeds = Speeds::kOfLaw) const;
-  /// All over a part of the segment, at any speed at which the move may be run. @pre as at()
-  [[nodiscard]] Moving<I> over(const Model<I>& model, const Segment& segment, const I& range) const;
+  /// At one place; nothing where the motion is not proved to be known (MotionRates::over()). @pre segment.timing
+  [[nodiscard]] std::optional<Moving<I>> at(const Model<I>& model, const Segment& segment, const I& place,
+                                            Speeds speeds = Speeds::kOfLaw) const;
+  /// All over a part of the segment, at any speed at which the move may be run; likewise.
+  [[nodiscard]] std::optional<Moving<I>> over(const Model<I>& model, const Segment& segment, const I& range) const;
   /// Bounds the margins of over() that are not positive once more, from parts of the times.
   void tighten(const Model<I>& model, const Segment& segment, const I& range, Moving<I>& moving) const;
 
@@ -108,7 +108,8 @@ class MovingModel {
 
   class Magnitudes;
 
-  [[nodiscard]] Part part_of(const Model<I>& model, const Segment& segment, const I& range, Speeds speeds) const;
+  [[nodiscard]] std::optional<Part> part_of(const Model<I>& model, const Segment& segment, const I& range,
+                                            Speeds speeds) const;
   [[nodiscard]] Moving<I> at_any_time(const Part& part) const;
   /// All but the margins.
   [[nodiscard]] Moving<I> moving(const Part& part) const;
@@ -126,7 +127,7 @@ class MovingModel {
                               std::vector<I>& sizes) const;
   void add_margins(const std::vector<I>& sizes, Moving<I>& to) const;
 
-  PathRatesModel<I> rates_;
+  MotionRates<I> rates_;
   std::vector<MovingBody<I>> bodies_;
   std::vector<Limit> limits_, powers_;
   std::optional<I> slowing_;  ///< by which share of its speed a move may be slowed down, at most [1/s]

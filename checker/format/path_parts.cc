@@ -251,12 +251,9 @@ void read_timing(const Cursor& json, const Problem& problem, Path& path) {
   };
   json.object("controls", read_controls, "step_s", law.step_s);
   json.require(problem.time.has_value(), "no law in time where the problem has no limits in time");
-  json.require(path.law == Law::kStraight || path.law == Law::kCubicBSpline,
-               "no law in time but of a path that is straight, or a spline, in the parameters");
-  json.require(problem.constraints.empty(), "no law in time where there are constraints");
   path.timing = std::move(law);
   try {
-    require_time_law(problem, path);
+    require_time_law(path);
   } catch (const Rejected& why) {
     json.fail(std::string("a law of a move along the path, not ") + why.what());
   }

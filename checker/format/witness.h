@@ -20,11 +20,6 @@ struct Margins {
 /// Pairs, by rising index, and the directions of each: what differs of a box from `apart` of its segment.
 using ApartChanges = std::vector<std::pair<std::size_t, std::vector<std::size_t>>>;
 
-/// Whether poses are zeros of equations (constraints or lengths), whose existence is part of the proof.
-inline bool is_implied(const Problem& problem, const Path& path) {
-  return path.law == Law::kCableLengths || !problem.constraints.empty();
-}
-
 /// A place of the path.
 struct PathPoint {
   std::size_t segment = 0;

@@ -68,29 +68,29 @@ Frame frame(const Problem& problem, const Vector6<MeanValueForm>& pose) {
   return {{pose[0], pose[1], pose[2]}, orientation(problem, pose)};
 }
 
-/// From one pose to another: the position on a straight line, the rotation about one axis and at a constant rate.
-Frame geodesic(std::span<const Waypoint> controls, const Box& box) {
-  const auto position = [&](std::size_t i) {
-    return form(over(mixed(controls, [i](const Waypoint& w) { return w.x[i]; }), box));
-  };
-  const auto vector = [](const Waypoint& w) { return ExactVector{w.x[3], w.x[4], w.x[5]}; };
-  const auto constant = [](const mpq_class& x) { return MeanValueForm(Ball(x)); };
-  const ExactVector u0 = vector(controls.front()), u1 = vector(controls.back()), u0_u1 = cross(u0, u1);
-  const mpq_class w0(controls.front().x[6]), w1(controls.back().x[6]);
-  Frame result{{position(0), position(1), position(2)},
-               rotation({constant(u0[0]), constant(u0[1]), constant(u0[2]), constant(w0)})};
-
-  // The quaternion (v, c) = conj(q0) q1, turned so that c is positive.
-  const mpq_class c = dot(u0, u1) + w0 * w1;
-  if (c == 0) throw Undefined("a geodesic of half a turn, whose axis is not defined");
+/// The rotation of conj(q0) q1, of which c is not negative: about v by 2 atan(|v| / c).
+struct RelativeTurn {
   ExactVector v;
-  for (std::size_t i = 0; i < 3; ++i) v[i] = (w0 * u1[i] - w1 * u0[i] - u0_u1[i]) * (c < 0 ? -1 : 1);
-  const mpq_class squared = dot(v, v);
-  if (squared == 0) return result;
-  const MeanValueForm s = form(over({0, 1}, box));
-  const MeanValueForm angle = Ball(2) * value(Function::kAtan, sqrt(Ball(squared)) / Ball(mpq_class(abs(c)))) * s;
-  result.R = multiply(result.R, rotation_about(v, angle));
-  return result;
+  mpq_class c;
+
+  /// @throws Undefined of half a turn
+  explicit RelativeTurn(std::span<const Waypoint> controls) {
+    const ExactVector u0 = vector(controls.front()), u1 = vector(controls.back()), u0_u1 = cross(u0, u1);
+    const mpq_class w0(controls.front().x[6]), w1(controls.back().x[6]);
+    c = dot(u0, u1) + w0 * w1;
+    if (c == 0) throw Undefined("a geodesic of half a turn, whose axis is not defined");
+    for (std::size_t i = 0; i < 3; ++i) v[i] = (w0 * u1[i] - w1 * u0[i] - u0_u1[i]) * (c < 0 ? -1 : 1);
+    c = abs(c);
+  }
+
+  [[nodiscard]] static ExactVector vector(const Waypoint& w) { return {w.x[3], w.x[4], w.x[5]}; }
+  [[nodiscard]] Ball size() const { return sqrt(Ball(dot(v, v))); }  ///< |v|
+  [[nodiscard]] Ball angle() const { return Ball(2) * value(Function::kAtan, size() / Ball(c)); }
+};
+
+Matrix3<MeanValueForm> rotation_of(const Waypoint& pose) {
+  const auto constant = [&](std::size_t j) { return MeanValueForm(Ball(pose.x[j])); };
+  return rotation({constant(3), constant(4), constant(5), constant(6)});
 }
 
 /// R(v, 1) = I + 2 / (1 + |v|^2) ([v] + [v]^2), [v]^2 = v v' - |v|^2 I.
@@ -162,33 +162,6 @@ class ForwardKinematics : public Equations {
   Ball turn_;      ///< r_u
 };
 
-/// As a path of lengths says, over a box of segment k.
-LengthControlled length_controlled(const Machine& machine, const Path& path, std::size_t k, const Box& box) {
-  const std::span<const Waypoint> controls = path.controls(k);
-  LengthControlled result;
-  for (std::size_t i = 0; i < 6; ++i) {
-    result.lengths[i] = form(over(mixed(controls, [&](const Waypoint& w) { return w.x[7 + i]; }), box));
-    for (std::size_t c = 0; c < 3; ++c) {
-      result.base[i][c] = MeanValueForm(machine.base[i][c]);
-      result.platform[i][c] = MeanValueForm(machine.platform[i][c]);
-    }
-  }
-  // The reference is a polyline from waypoint to waypoint through the inner poses.
-  const std::vector<InnerPose>& inner = path.inner_poses[k];
-  const auto end_pose = [](int s, const Waypoint& waypoint, const PoseTube& tube) {
-    InnerPose pose{s, {}, tube};
-    std::copy_n(waypoint.x.begin(), pose.x.size(), pose.x.begin());
-    return pose;
-  };
-  const auto next = std::ranges::upper_bound(inner, box.begin, {}, &InnerPose::s);
-  const InnerPose first = next == inner.begin() ? end_pose(0, controls.front(), path.pose_tubes[k]) : *std::prev(next);
-  const InnerPose last = next == inner.end() ? end_pose(1, controls.back(), {}) : *next;
-  if (box.end > last.s) throw std::logic_error("a box that reaches across an inner pose");
-  result.reference = reference_line(first, last, box);
-  result.tube = first.tube;
-  return result;
-}
-
 const NearZero& near(const Box& box) {
   if (!box.near) throw std::logic_error("a box without the place of its implied motion");
   return *box.near;
@@ -231,12 +204,63 @@ Vector6<MeanValueForm> coordinates(const Problem& problem, const std::vector<Mea
 std::vector<MeanValueForm> parameters(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
   const OnConstraints motion(problem, path, k, box);
   if (motion.unknowns() == 0) return motion.parameters({});
-  return motion.parameters(only_zero(motion, Ball(path.tubes[k]), near(box)));
+  return motion.parameters(only_zero(motion, Ball(path.tubes.at(k)), near(box)));
 }
 
 Frame forward_kinematics(const LengthControlled& machine, const NearZero& near) {
   const ForwardKinematics motion(machine);
   return motion.pose(only_zero(motion, Ball(1), near));
+}
+
+Frame pose_at(const LengthControlled& machine, const Vector6<MeanValueForm>& z) {
+  return ForwardKinematics(machine).pose(z);
+}
+
+LengthControlled length_controlled(const Machine& machine, const Path& path, std::size_t k, const Box& box,
+                                   const Box& within) {
+  const std::span<const Waypoint> controls = path.controls(k);
+  LengthControlled result;
+  for (std::size_t i = 0; i < 6; ++i) {
+    result.lengths[i] = form(over(mixed(controls, [&](const Waypoint& w) { return w.x[7 + i]; }), box));
+    for (std::size_t c = 0; c < 3; ++c) {
+      result.base[i][c] = MeanValueForm(machine.base[i][c]);
+      result.platform[i][c] = MeanValueForm(machine.platform[i][c]);
+    }
+  }
+  // The reference is a polyline from waypoint to waypoint through the inner poses.
+  const std::vector<InnerPose>& inner = path.inner_poses.at(k);
+  const auto end_pose = [](int s, const Waypoint& waypoint, const PoseTube& tube) {
+    InnerPose pose{s, {}, tube};
+    std::copy_n(waypoint.x.begin(), pose.x.size(), pose.x.begin());
+    return pose;
+  };
+  const auto next = std::ranges::upper_bound(inner, within.begin, {}, &InnerPose::s);
+  const InnerPose first =
+      next == inner.begin() ? end_pose(0, controls.front(), path.pose_tubes.at(k)) : *std::prev(next);
+  const InnerPose last = next == inner.end() ? end_pose(1, controls.back(), {}) : *next;
+  if (within.end > last.s || box.begin < within.begin || box.end > within.end)
+    throw std::logic_error("a box that reaches across an inner pose");
+  result.reference = reference_line(first, last, box);
+  result.tube = first.tube;
+  return result;
+}
+
+Frame geodesic(std::span<const Waypoint> controls, const Box& box) {
+  const auto position = [&](std::size_t i) {
+    return form(over(mixed(controls, [i](const Waypoint& w) { return w.x[i]; }), box));
+  };
+  Frame result{{position(0), position(1), position(2)}, rotation_of(controls.front())};
+  const RelativeTurn turn(controls);
+  if (dot(turn.v, turn.v) == 0) return result;
+  result.R = multiply(result.R, rotation_about(turn.v, turn.angle() * form(over({0, 1}, box))));
+  return result;
+}
+
+Vector3<Ball> geodesic_turn(std::span<const Waypoint> controls) {
+  const RelativeTurn turn(controls);
+  if (dot(turn.v, turn.v) == 0) return {};
+  const Vector3<Ball> in_first = turn.angle() / turn.size() * balls(turn.v);
+  return multiply(range(rotation_of(controls.front())), in_first);
 }
 
 Frame reference_line(const InnerPose& begin, const InnerPose& end, const Box& box) {
@@ -252,7 +276,7 @@ Geometry commanded_geometry(const Machine& machine, const Problem& problem, cons
                             const Box& box, Ranges ranges) {
   if (path.law == Law::kGeodesic) return machine.geometry(geodesic(path.controls(k), box));
   if (path.law == Law::kCableLengths) {
-    const LengthControlled controlled = length_controlled(machine, path, k, box);
+    const LengthControlled controlled = length_controlled(machine, path, k, box, box);
     Geometry result = machine.geometry(forward_kinematics(controlled, near(box)));
     result.length = controlled.lengths;
     return result;
@@ -265,7 +289,7 @@ Geometry commanded_geometry(const Machine& machine, const Problem& problem, cons
 
 std::unique_ptr<Equations> motion_equations(const Machine& machine, const Problem& problem, const Path& path,
                                             std::size_t k, const Box& box) {
-  if (path.law == Law::kCableLengths) return motion_equations(length_controlled(machine, path, k, box));
+  if (path.law == Law::kCableLengths) return motion_equations(length_controlled(machine, path, k, box, box));
   return std::make_unique<OnConstraints>(problem, path, k, box);
 }
 

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "checker/kernel/machine.h"
 #include "checker/kernel/zero.h"
@@ -40,6 +41,11 @@ void require_in_range(const Problem& problem, const std::vector<MeanValueForm>& 
 /// Of the quaternion (x, y, z, w), of any length but 0.
 [[nodiscard]] Matrix3<MeanValueForm> rotation(const std::array<MeanValueForm, 4>& q);
 
+/// From one pose to another: the position on a straight line, the rotation about one axis and at a constant rate; and
+/// that rate w, with R' = [w] R by s [rad], axes of W. @throws Undefined of half a turn
+[[nodiscard]] Frame geodesic(std::span<const Waypoint> controls, const Box& box);
+[[nodiscard]] Vector3<Ball> geodesic_turn(std::span<const Waypoint> controls);
+
 /// The straight line between two poses of a polyline, over a box between their abscissae.
 [[nodiscard]] Frame reference_line(const InnerPose& begin, const InnerPose& end, const Box& box);
 
@@ -53,6 +59,13 @@ struct LengthControlled {
 };
 /// The only pose in the tube. @throws Undefined unless there is exactly one for every u, and lengths are positive.
 [[nodiscard]] Frame forward_kinematics(const LengthControlled& machine, const NearZero& near);
+
+/// The pose at z.
+[[nodiscard]] Frame pose_at(const LengthControlled& machine, const Vector6<MeanValueForm>& z);
+/// As a path of lengths says over a box of segment k, with the piece of the reference in which `within` is: that
+/// reaches across no inner pose, and contains the box.
+[[nodiscard]] LengthControlled length_controlled(const Machine& machine, const Path& path, std::size_t k,
+                                                 const Box& box, const Box& within);
 
 /// Whether parameters of an implied motion have to be in their ranges. They need not on the way to a witness.
 enum class Ranges { kRequired, kIgnored };

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "checker/kernel/curve.h"
-#include "checker/kernel/rotation.h"
-#include "checker/kernel/second_jet.h"
+#include "checker/kernel/frame_jet.h"
 
 namespace taut::checker {
 namespace {
@@ -119,61 +118,24 @@ std::optional<Instant> middle_of(const PiecewiseLaw& law, const Times& times, co
 
 // ---- The platform ---------------------------------------------------------------------------------------------------
 
-/// The pose by s over a box.
-struct FrameJet {
-  Vector3<SecondJet> p;
-  Matrix3<SecondJet> R;
-};
-
-FrameJet frame_over(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
-  std::vector<SecondJet> parameters;
-  const std::span<const Waypoint> controls = path.controls(k);
-  for (std::size_t j = 0; j < controls[0].x.size(); ++j) {
-    const auto [a, b] = coordinate(controls, j);
-    const auto is_still = [](const Polynomial& p) {
-      return std::all_of(p.begin() + 1, p.end(), [](const auto& c) { return c == 0; });
-    };
-    if (is_still(a) && is_still(b)) {
-      parameters.emplace_back(form(a, b).range());
-      continue;
-    }
-    const auto by_s = [&](const auto& map) { return form(over(map(a), box), over(map(b), box)).range(); };
-    parameters.emplace_back(by_s([](const Polynomial& p) { return p; }),
-                            by_s([](const Polynomial& p) { return derivative(p); }),
-                            by_s([](const Polynomial& p) { return derivative(derivative(p)); }));
-  }
-  Vector6<SecondJet> pose;
-  for (std::size_t c = 0; c < 6; ++c) pose[c] = problem.pose[c].evaluate<SecondJet>(parameters);
-  return {{pose[0], pose[1], pose[2]}, orientation(problem, pose)};
-}
-
-Matrix3<Ball> map(const Matrix3<SecondJet>& R, Ball SecondJet::*what) {
-  Matrix3<Ball> result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) result[i][j] = R[i][j].*what;
-  }
-  return result;
-}
-
-/// Of the skew part of M.
-Vector3<Ball> axis_of(const Matrix3<Ball>& M) {
-  return {half(M[2][1] - M[1][2]), half(M[0][2] - M[2][0]), half(M[1][0] - M[0][1])};
-}
-
 class Rates {
  public:
   Rates(FrameJet frame, Speed law) : frame_(std::move(frame)), law_(std::move(law)) {
-    R = map(frame_.R, &SecondJet::value);
-    const Matrix3<Ball> back = transposed(R);
-    const Vector3<Ball> w = axis_of(multiply(map(frame_.R, &SecondJet::first), back));
-    const Vector3<Ball> w1 = axis_of(multiply(map(frame_.R, &SecondJet::second), back));
     for (std::size_t c = 0; c < 3; ++c) {
-      spin[c] = speed(SecondJet(Ball(), w[c], Ball()));
-      spin_change[c] = acceleration(SecondJet(Ball(), w[c], w1[c]));
+      for (std::size_t j = 0; j < 3; ++j) R[c][j] = frame_.R[c][j].value;
+      spin[c] = speed(SecondJet(Ball(), frame_.w[c], Ball()));
+      spin_change[c] = acceleration(SecondJet(Ball(), frame_.w[c], frame_.w1[c]));
     }
   }
 
   [[nodiscard]] Vector3<SecondJet> point(const Vector3<Ball>& x) const { return frame_.p + multiply(frame_.R, x); }
+  /// The length of cable i by s.
+  [[nodiscard]] SecondJet length(const Machine& machine, std::size_t i) const {
+    if (frame_.length) return (*frame_.length)[i];
+    Vector3<SecondJet> d = point(machine.platform[i]);
+    for (std::size_t c = 0; c < 3; ++c) d[c] = d[c] - SecondJet(machine.base[i][c]);
+    return apply(Function::kSqrt, squared_norm(d));
+  }
   [[nodiscard]] Ball speed(const SecondJet& x) const { return x.first * law_.rate; }
   [[nodiscard]] Ball fastest(const SecondJet& x) const { return x.first * law_.fastest; }
   [[nodiscard]] Ball acceleration(const SecondJet& x) const {
@@ -238,11 +200,11 @@ void add_weight(const Weight& weight, const LoadItem& item, const Machine& machi
 
 }  // namespace
 
-void require_time_law(const Problem& problem, const Path& path) {
+void require_time_law(const Path& path) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw Rejected(what);
   };
-  require(!has_poses(path.law) && problem.constraints.empty() && path.segments() > 0, "a law in time of such a motion");
+  require(path.segments() > 0, "a law in time of a pose");
   const std::vector<double>& c = path.timing->controls;
   require(path.timing->step_s > 0 && c.size() >= 4, "a law in time without a step or a piece");
   require(std::ranges::is_sorted(c), "a law in time that goes back");
@@ -268,13 +230,6 @@ struct Fastest {
   Ball load, spin;
 };
 
-/// The length of cable i by s.
-SecondJet length(const Machine& machine, const Rates& rates, std::size_t i) {
-  Vector3<SecondJet> d = rates.point(machine.platform[i]);
-  for (std::size_t c = 0; c < 3; ++c) d[c] = d[c] - SecondJet(machine.base[i][c]);
-  return apply(Function::kSqrt, squared_norm(d));
-}
-
 /// The magnitude of a velocity that is v0 at one time, and in v with the rate a for `reach` about it: its square
 /// changes at the rate 2 v a.
 Ball magnitude_within(const Vector3<Ball>& v0, const Vector3<Ball>& v, const Vector3<Ball>& a, const Ball& reach) {
@@ -289,15 +244,13 @@ bool limits_a_speed(const TimeLimits& limits) {
 }
 
 /// By the speeds in the middle of a box, and the accelerations of the law all over it.
-Fastest fastest(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Instant& middle,
+Fastest fastest(const Machine& machine, const CommandedMotion& motion, std::size_t k, const Instant& middle,
                 const Rates& all) {
-  Box at;
-  at.begin = at.end = middle.place - k;
-  const Rates here(frame_over(problem, path, k, at), {middle.rate, Ball(), middle.rate});
+  const Rates here(motion.at(middle.place - k), {middle.rate, Ball(), middle.rate});
   Fastest result;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const Ball change = middle.reach * all.acceleration(length(machine, all, i));
-    result.winch[i] = magnitude(here.speed(length(machine, here, i)) + plus_minus(magnitude(change)));
+    const Ball change = middle.reach * all.acceleration(all.length(machine, i));
+    result.winch[i] = magnitude(here.speed(here.length(machine, i)) + plus_minus(magnitude(change)));
   }
   const Vector3<SecondJet> load = all.point(machine.load_point);
   result.load = magnitude_within(here.velocity(here.point(machine.load_point)), all.velocity(load),
@@ -312,18 +265,17 @@ struct OnBox {
   Speed law;
   std::optional<Fastest> most;
 
-  OnBox(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box)
-      : frame(frame_over(problem, path, k, box)) {
-    if (!path.timing || !problem.time || has_poses(path.law) || !problem.constraints.empty()) {
-      throw std::logic_error("a move whose rates are not known");
-    }
+  OnBox(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box) {
+    if (!path.timing || !problem.time) throw std::logic_error("a move without a law, or without limits");
+    const CommandedMotion motion(machine, problem, path, k, box);
+    frame = motion.over_box();
     const PiecewiseLaw pieces(*path.timing);
     const mpq_class step(path.timing->step_s), begin = k + box.begin, end = k + box.end;
     const Times times(pieces, begin, end);
     law = law_range(pieces, times, Ball(step));
     if (!limits_a_speed(*problem.time)) return;
     const std::optional<Instant> middle = middle_of(pieces, times, step, begin, end);
-    if (middle) most = fastest(machine, problem, path, k, *middle, Rates(frame, law));
+    if (middle) most = fastest(machine, motion, k, *middle, Rates(frame, law));
   }
 };
 
@@ -352,7 +304,7 @@ class AtSpeed {
       if (const auto* weight = std::get_if<Weight>(&item.set)) add_weight(*weight, item, machine_, rates_, result);
     }
     for (std::size_t i = 0; i < kCables; ++i) {
-      if (problem_.time->winch_power[i]) result.winch_speed[i] = fast(rates_.fastest(length(machine_, rates_, i)), i);
+      if (problem_.time->winch_power[i]) result.winch_speed[i] = fast(rates_.fastest(rates_.length(machine_, i)), i);
     }
     return result;
   }
@@ -365,8 +317,8 @@ class AtSpeed {
       result.push_back({kind, cable, rate, rate_limit(problem_, kind, cable) - rate});
     };
     for (std::size_t i = 0; i < kCables; ++i) {
-      add(RateKind::kWinchSpeed, i, [&] { return fast(rates_.speed(length(machine_, rates_, i)), i); });
-      add(RateKind::kWinchAcceleration, i, [&] { return size(rates_.acceleration(length(machine_, rates_, i))); });
+      add(RateKind::kWinchSpeed, i, [&] { return fast(rates_.speed(rates_.length(machine_, i)), i); });
+      add(RateKind::kWinchAcceleration, i, [&] { return size(rates_.acceleration(rates_.length(machine_, i))); });
     }
     const auto no_more_than = [&](const Ball& x, Ball Fastest::*than) { return most_ ? no_more(x, *most_.*than) : x; };
     const Vector3<SecondJet> load_point = rates_.point(machine_.load_point);

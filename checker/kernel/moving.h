@@ -7,8 +7,7 @@
 // polynomial on each of its pieces, and where σ(t) < a or σ(t) > b is decided exactly; halving finds such times near
 // both ends of the interval. Over the times between, σ' and σ'' are enclosed.
 //
-// p(s) and R(s) with their first two derivatives by s are SecondJets. With R' = [w] R and R'' R^T = [w'] + [w]^2, whose
-// second term is symmetric,
+// With p(s) and R(s), their first two derivatives by s and R' = [w] R (frame_jet.h),
 //     velocity  X' σ',    acceleration  X'' σ'^2 + X' σ''   of a point X(s) = p + R x, and of a length |d_i|,
 //     ω = w σ',           ω' = w' σ'^2 + w σ''              (by time).
 // A speed is also bounded from one time m in the middle of those on the box, none of which is farther from m than some
@@ -64,9 +63,10 @@ struct Moving {
 [[nodiscard]] Ball rate_limit(const Problem& problem, RateKind kind, std::size_t cable);
 
 /// Asks of a path's law all that is said above: four control values or more, a step above 0, and that the move begins
-/// and ends at rest and rests at every corner. Three control values are equal where it rests, so that σ' = σ'' = 0
-/// wherever σ is that number, or, at the ends of a spline, three control points are. @pre path.timing @throws Rejected
-void require_time_law(const Problem& problem, const Path& path);
+/// and ends at rest and, but for splines, rests at every waypoint. Three control values are equal where it rests, so
+/// that σ' = σ'' = 0 wherever σ is that number, or, at the ends of a spline, three control points are, with their
+/// normals. @pre path.timing @throws Rejected
+void require_time_law(const Path& path);
 
 /// Over a box of segment k, at every time at which the move is there, run as its law says. @throws Undefined where that
 /// is not proved. @pre require_time_law(), and the problem has limits in time

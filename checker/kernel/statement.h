@@ -381,6 +381,11 @@ struct Overloaded : Functions... {
 template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
+/// Whether poses are zeros of equations (constraints or lengths), whose existence is part of the proof.
+inline bool is_implied(const Problem& problem, const Path& path) {
+  return path.law == Law::kCableLengths || !problem.constraints.empty();
+}
+
 /// Whether the lengths of the cables are what a controller commands, not the pose.
 inline bool is_length_controlled(const Problem& problem, const Path& path) {
   return path.law == Law::kCableLengths || (problem.tolerances && problem.tolerances->cable_length);

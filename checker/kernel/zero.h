@@ -39,6 +39,10 @@ class Equations {
 /// A, close to the inverse of G in its middle, and M for the box Y. @throws Undefined unless ||M|| < 1.
 struct Contraction {
   Contraction(const Equations& equations, const Vector6<Ball>& Y);
+  explicit Contraction(const Matrix6<Ball>& G);
+  /// G'^-1 b for every G' in G. Of x with G' x = b, (I - M') x = A b with |M'| <= M: so |x| <= |A b| + M |x|, first in
+  /// the largest component, and then in each.
+  [[nodiscard]] Vector6<Ball> divide(const Vector6<Ball>& b) const;
   Matrix6<Ball> A;
   Matrix6<Ball> M;  ///< magnitudes
 };
@@ -46,5 +50,8 @@ struct Contraction {
 /// The only zero with |y_i| <= tube, for every u; `near` states c, w and how often (3) is applied. @throws Undefined
 /// unless there is exactly one.
 [[nodiscard]] Vector6<MeanValueForm> only_zero(const Equations& equations, const Ball& tube, const NearZero& near);
+
+/// (3), so many times, of a zero that is in `known` for every u. @throws Undefined where ||M|| < 1 is not shown
+[[nodiscard]] Vector6<MeanValueForm> narrowed(const Equations& equations, Vector6<MeanValueForm> known, int narrowings);
 
 }  // namespace taut::checker

@@ -14,12 +14,10 @@ std::vector<double> resolved(const Waypoint& waypoint) {
 }
 
 Sampler::Sampler(const Problem& problem) : poses_(problem) {
-  if (problem.time && problem.space.constraints.empty()) moves_.emplace(problem);
+  if (problem.time) moves_.emplace(problem);
 }
 
-bool Sampler::is_timed(const Path& path) const {
-  return moves_ && path.timing && path.segments() > 0 && PathRatesModel<double>::knows(path.interpolation);
-}
+bool Sampler::is_timed(const Path& path) const { return moves_ && path.timing && path.segments() > 0; }
 
 PathSample Sampler::at(const Path& path, double position) const {
   PathSample sample = pose_at(path, position);

@@ -356,7 +356,7 @@ std::string move_text(const ReportContext& scene) {
   const auto begin = scene.travel.time_s(0);
   const auto end = scene.travel.time_s(segments);
   if (is_move(scene.certificate)) {
-    const bool stops = path.interpolation == Interpolation::kStraight && path.segments() > 1;
+    const bool stops = path.interpolation != Interpolation::kCubicBSpline && path.segments() > 1;
     return text + fmt::format(" in T = {}; it rests at {}.", seconds_text(path.timing->duration_s()),
                               stops ? "every waypoint" : "the start and the end");
   }

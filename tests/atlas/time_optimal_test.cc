@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "kinematics/path_rates.h"
+#include "kinematics/rates_sampler.h"
 #include "tests/support/robots.h"
 
 namespace taut {
@@ -27,7 +27,7 @@ MovingBody<double> body(double mass, double radius) {
 /// The largest usage at places and times between those of the search.
 double greatest_usage(const Path& path, const TimedPathProblem& problem, const TimeLaw& law) {
   const PoseSampler sampler(problem.problem);
-  const PathRatesModel<double> rates(problem.problem);
+  const RatesSampler rates(problem.problem);
   double most = 0;
   constexpr int kTimes = 5000;
   for (int k = 0; k <= kTimes; ++k) {
@@ -42,7 +42,7 @@ double greatest_usage(const Path& path, const TimedPathProblem& problem, const T
 /// The largest jerk of the load point, from differences of its acceleration between close times [m/s³].
 double greatest_jerk(const Path& path, const TimedPathProblem& problem, const TimeLaw& law) {
   const PoseSampler sampler(problem.problem);
-  const PathRatesModel<double> rates(problem.problem);
+  const RatesSampler rates(problem.problem);
   const double h = law.step_s / 8;
   Vector3<double> before = Vector3<double>::Zero();
   double most = 0;
@@ -131,7 +131,7 @@ TEST(TimeOptimal, WinchesKeepTheirPowerWithInertia) {
   EXPECT_GT(move->fastest_s, 1.2 * unlimited->fastest_s);
   // Tensions and speeds once more, from the pose at each time.
   const PoseSampler sampler(problem);
-  const PathRatesModel<double> path_rates(problem);
+  const RatesSampler path_rates(problem);
   double most = 0;
   constexpr int kTimes = 2000;
   for (int k = 0; k <= kTimes; ++k) {

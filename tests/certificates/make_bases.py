@@ -272,7 +272,7 @@ def between_poses(pr, pa, k, s):
     tube = pa['pose_tubes'][k]
     inner = [(Fraction(i['s']), i, i['tube']) for i in tube.get('inner', [])]
     places = [(Fraction(0), ends[0], tube)] + inner + [(Fraction(1), ends[1], None)]
-    j = max(j for j in range(len(places) - 1) if places[j][0] <= s)
+    j = max((j for j in range(len(places) - 1) if places[j][0] <= s), default=0)
     (begin, first, tube), (end, last, _) = places[j:j + 2]
     t = (s - float(begin)) / float(end - begin)
     at = lambda key: [(1 - t) * float.fromhex(x) + t * float.fromhex(y) for x, y in zip(first[key], last[key])]
@@ -618,28 +618,36 @@ def splines():
     yield 'refuted_spline', slackest(across, bent_path, 8)
 
 
+def on_sphere(a1, a2):
+    return [0.13 * cos(a2) * cos(a1), 0.13 * cos(a2) * sin(a1), 0.306 - 0.13 * sin(a2), a1 - pi, pi / 2 - a2, 0.0]
+
+
+def on_ball(a1, a2):
+    x = on_sphere(a1, a2)
+    return waypoint(x, None, [x[0] / 0.13, x[1] / 0.13, (x[2] - 0.306) / 0.13, 0, 0, 0])
+
+
+BALL = {'parameters': [{'name': n, 'kind': k} for n, k in (('px', 'real'), ('py', 'real'), ('pz', 'real'),
+                                                           ('phi', 'periodic'), ('theta', 'real'), ('sigma', 'real'))],
+        'constants': {'rs': '0.13', 'zs': '0.306'}, 'flip': [3, 4],
+        'pose': {n: n for n in ('px', 'py', 'pz', 'phi', 'theta', 'sigma')},
+        'constraints': ['px^2 + py^2 + (pz - zs)^2 - rs^2']}
+
+
+def between_typed(*waypoints):
+    return [['%.17g' % float.fromhex(x) for x in w['x']] for w in waypoints]
+
+
 def implied():
     """Motions that constraints imply."""
-    free = [{'name': n, 'kind': k} for n, k in (('px', 'real'), ('py', 'real'), ('pz', 'real'), ('phi', 'periodic'),
-                                                ('theta', 'real'), ('sigma', 'real'))]
-    ball = {'parameters': free, 'constants': {'rs': '0.13', 'zs': '0.306'}, 'flip': [3, 4],
-            'pose': {p['name']: p['name'] for p in free}, 'constraints': ['px^2 + py^2 + (pz - zs)^2 - rs^2']}
-    def on_sphere(a1, a2):
-        return [0.13 * cos(a2) * cos(a1), 0.13 * cos(a2) * sin(a1), 0.306 - 0.13 * sin(a2), a1 - pi, pi / 2 - a2, 0.0]
-    def on_ball(a1, a2):
-        x = on_sphere(a1, a2)
-        return waypoint(x, None, [x[0] / 0.13, x[1] / 0.13, (x[2] - 0.306) / 0.13, 0, 0, 0])
-    def between_typed(*waypoints):
-        return [['%.17g' % float.fromhex(x) for x in w['x']] for w in waypoints]
-
     u, v, w = on_ball(0.55, 1.5), on_ball(0.6, 1.45), on_ball(0.6, 1.4)
-    ball_problem = problem('robot2-ball', ROBOT2, ball, between_typed(u, w))
+    ball_problem = problem('robot2-ball', ROBOT2, BALL, between_typed(u, w))
     yield 'implied_sphere', proved(ball_problem, straight(u, v, w, tubes=[2**-9, 2**-10]), 2, samples=60)
     yield 'implied_sphere_spline', proved(ball_problem, spline(u, v, w, tubes=[2**-9] * 4), 2, samples=60)
-    still = problem('robot2-ball-still', ROBOT2, ball, between_typed(u, u))
+    still = problem('robot2-ball-still', ROBOT2, BALL, between_typed(u, u))
     yield 'implied_start_is_goal', proved(still, straight(u, u, tubes=[2**-20]), 1, samples=1)
 
-    facing = dict(ball, flip=None, constraints=['px + rs*sin(theta)*cos(phi)', 'py + rs*sin(theta)*sin(phi)',
+    facing = dict(BALL, flip=None, constraints=['px + rs*sin(theta)*cos(phi)', 'py + rs*sin(theta)*sin(phi)',
                                                 'pz - zs + rs*cos(theta)', 'sigma'])
     def facing_at(a1, a2):
         x = on_sphere(a1, a2)
@@ -1306,6 +1314,31 @@ def moves():
     corners = straight(waypoint(a), waypoint(m), waypoint(b))
     corners['timing'] = law(0.125, [0, 1, 2], 8)
     yield 'move_of_two_legs', proved_move(lifted('robot2-legs', typed(a, m, b)), corners, 16)
+
+    # Along a sphere, as a constraint implies it; and between poses, by geodesics and straight in cable lengths.
+    u, v, w = on_ball(0.55, 1.1), on_ball(0.65, 1.05), on_ball(0.7, 0.95)
+    ball = dict(problem('robot2-ball-move', (ROBOT2[0], LIFTED), BALL, between_typed(u, w)), time={})
+    on_sphere_path = dict(spline(u, v, w, tubes=[2**-8] * 4), timing=law(0.25, [0, 4], 12))
+    yield 'implied_move', proved_move(ball, on_sphere_path, 16)
+    free = dict(problem('robot2-poses', (ROBOT2[0], LIFTED), FREE, []), time={})
+    at = lambda x: (x[:3], quaternion(*x[3:]))
+    turn = dict(poses('geodesic', *[pose(*at(x)) for x in (a, m, b)]), timing=law(0.125, [0, 1, 2], 8))
+    yield 'geodesic_move', proved_move(free, turn, 16)
+    winches = dict(bent(free, at(a), at(m), 4, (2**-9, 2**-8)), timing=law(0.125, [0, 1], 8))
+    yield 'lengths_move', proved_move(free, winches, 16)
+
+    quick = dict(on_sphere_path, timing=law(2**-5, [0, 4], 12))
+    fast = dict(ball, time={'winch_acceleration_m_s2': limits_of(seen_of(ball, quick, 1), 0.75)[
+        'winch_acceleration_m_s2']})
+    limits = [float(x) for x in fast['time']['winch_acceleration_m_s2']]
+    excess, i, seen, z = max((a / limits[i], i, a, z) for z, rate, change in in_law(quick['timing'], 1)
+                             for i, a in enumerate(Moment(fast, quick, z, rate, change).rates()['winch_acceleration']))
+    assert excess > 1.2, excess
+    k = min(int(z), 3)
+    yield 'refuted_implied_move', certificate(fast, quick, 'refuted', version=6, witness={
+        'kind': 'winch_acceleration', 'at': {'segment': k, 's': str(Fraction(z) - k)}, 'cable': i + 1,
+        'value': ['%.6e' % (seen * 0.9999), '%.6e' % (seen * 1.0001)],
+        'limit': fast['time']['winch_acceleration_m_s2'][i]})
 
     # The same way much faster, with one limit of each kind that it can't keep.
     quick = dict(corners, timing=law(2**-6, [0, 1, 2], 8))

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "certify/prover.h"
+#include "tests/support/implied_moves.h"
 #include "tests/support/moves.h"
 
 namespace taut::testing {
@@ -76,63 +77,83 @@ std::string limit_of(const SegmentWitness& witness) {
   }
 }
 
+/// Proves or refutes a move whose limits are near what it does, where `is_limited`, and holds both to Newton and Euler.
+void expect_true_verdicts(MovingMachine& machine, const Path& path, const oracle::Move& move, bool is_limited,
+                          Operands& operands, int trial, std::map<std::string, int>& count) {
+  const BigFloat error = oracle::big("1e-20");
+  if (is_limited) {
+    const PrecisionScope precision(oracle::kMovingBits);
+    const Truth middle = truth(machine, move, BigFloat(path.timing->duration_s() * operands.uniform(0.2, 0.8)));
+    const auto near = [&](const BigFloat& x) -> TimeText::Limit {
+      if (operands.pick(2) == 0) return std::nullopt;
+      return MovingMachine::exact_text(std::abs(x.to_double(MPFR_RNDN)) * operands.uniform(0.9, 8) + 1e-6);
+    };
+    for (std::size_t i = 0; i < kCables; ++i) {
+      machine.problem.time->winch_speed_m_s[i] = near(middle.winch_speed[i]);
+      machine.problem.time->winch_acceleration_m_s2[i] = near(middle.winch_acceleration[i]);
+      machine.problem.time->winch_power_W[i] = near(middle.high[i] * middle.winch_speed[i]);
+    }
+    machine.problem.time->load_speed_m_s = near(middle.speed);
+    machine.problem.time->load_acceleration_m_s2 = near(middle.acceleration);
+  }
+  const Prover prover(machine.problem, {.max_bits = 256, .max_boxes = 4000, .max_multiprecision_boxes = 50});
+  bool all_proved = true;
+  for (std::size_t k = 0; k < path.segments(); ++k) {
+    const SegmentProof proof = prover.prove(path.segment(k));
+    all_proved = all_proved && proof.verdict == Verdict::kProved;
+    if (proof.verdict == Verdict::kUndecided) ++count["undecided"];
+    if (proof.verdict != Verdict::kRefuted || proof.witness->singular) continue;
+    const std::string limit = limit_of(*proof.witness);
+    if (limit.starts_with("length")) continue;  // that has nothing to do with time
+    ++count[proof.witness->rate ? "too fast" : "tension"];
+    const PrecisionScope precision(oracle::kMovingBits);
+    const BigFloat s = BigFloat(static_cast<double>(k)) + BigFloat(proof.witness->box.mid().approx());
+    const BigFloat slack = slacks(machine.problem, truth(machine, move, time_at(*path.timing, s))).at(limit);
+    EXPECT_LT(slack, error) << trial << ": " << limit;
+  }
+  if (!all_proved) return;
+  ++count["proved"];
+  const PrecisionScope precision(oracle::kMovingBits);
+  constexpr int kTimes = 12;
+  for (int n = 0; n < kTimes; ++n) {
+    const BigFloat t(path.timing->duration_s() * operands.uniform(1e-9, 1 - 1e-9));
+    for (const auto& [limit, slack] : slacks(machine.problem, truth(machine, move, t))) {
+      EXPECT_GT(slack, -error) << trial << ": " << limit;
+    }
+  }
+}
+
 TEST(Moving, ProofsAndRefutationsAgreeWithNewtonAndEuler) {
   Operands operands(29);
   std::map<std::string, int> count;
-  const BigFloat error = oracle::big("1e-20");
   constexpr int kTrials = 120;
   for (int trial = 0; trial < kTrials; ++trial) {
     MovingMachine machine(operands);
     const bool is_limited = trial % 2 == 0;  // else by tensions alone
     const Path path = some_move(operands, is_limited ? 0.2 : 0.05);
-    if (is_limited) {  // near what the move does
-      const PrecisionScope precision(oracle::kMovingBits);
-      const oracle::Move move = oracle_of(path);
-      const Truth middle = truth(machine, move, BigFloat(path.timing->duration_s() * operands.uniform(0.2, 0.8)));
-      const auto near = [&](const BigFloat& x) -> TimeText::Limit {
-        if (operands.pick(2) == 0) return std::nullopt;
-        return MovingMachine::exact_text(std::abs(x.to_double(MPFR_RNDN)) * operands.uniform(0.9, 8) + 1e-6);
-      };
-      for (std::size_t i = 0; i < kCables; ++i) {
-        machine.problem.time->winch_speed_m_s[i] = near(middle.winch_speed[i]);
-        machine.problem.time->winch_acceleration_m_s2[i] = near(middle.winch_acceleration[i]);
-        machine.problem.time->winch_power_W[i] = near(middle.high[i] * middle.winch_speed[i]);
-      }
-      machine.problem.time->load_speed_m_s = near(middle.speed);
-      machine.problem.time->load_acceleration_m_s2 = near(middle.acceleration);
-    }
-    const Prover prover(machine.problem, {.max_bits = 256, .max_boxes = 4000, .max_multiprecision_boxes = 50});
-    const oracle::Move move = oracle_of(path);
-    bool all_proved = true;
-    for (std::size_t k = 0; k < path.segments(); ++k) {
-      const SegmentProof proof = prover.prove(path.segment(k));
-      all_proved = all_proved && proof.verdict == Verdict::kProved;
-      if (proof.verdict == Verdict::kUndecided) ++count["undecided"];
-      if (proof.verdict != Verdict::kRefuted || proof.witness->singular) continue;
-      const std::string limit = limit_of(*proof.witness);
-      if (limit.starts_with("length")) continue;  // that has nothing to do with time
-      ++count[proof.witness->rate ? "too fast" : "tension"];
-      const PrecisionScope precision(oracle::kMovingBits);
-      const BigFloat s = BigFloat(static_cast<double>(k)) + BigFloat(proof.witness->box.mid().approx());
-      const BigFloat slack = slacks(machine.problem, truth(machine, move, time_at(*path.timing, s))).at(limit);
-      EXPECT_LT(slack, error) << trial << ": " << limit;
-    }
-    if (!all_proved) continue;
-    ++count["proved"];
-    const PrecisionScope precision(oracle::kMovingBits);
-    constexpr int kTimes = 12;
-    for (int n = 0; n < kTimes; ++n) {
-      const BigFloat t(path.timing->duration_s() * operands.uniform(1e-9, 1 - 1e-9));
-      for (const auto& [limit, slack] : slacks(machine.problem, truth(machine, move, t))) {
-        EXPECT_GT(slack, -error) << trial << ": " << limit;
-      }
-    }
+    expect_true_verdicts(machine, path, oracle_of(path), is_limited, operands, trial, count);
   }
   for (const auto& [what, times] : count) std::printf("%s: %d\n", what.c_str(), times);
   EXPECT_GT(count["proved"], kTrials / 4);
   EXPECT_GT(count["tension"], kTrials / 8);
   EXPECT_GT(count["too fast"], kTrials / 8);
   EXPECT_LT(count["undecided"], kTrials / 50);
+}
+
+TEST(Moving, ProofsAndRefutationsOfImpliedMotionsAgreeWithNewtonAndEuler) {
+  Operands operands(47);
+  std::map<std::string, int> count;
+  constexpr int kTrials = 48;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const auto kind = static_cast<ImpliedMove::Kind>(trial / 2 % ImpliedMove::kKinds);
+    const bool is_limited = trial % 2 == 0;
+    ImpliedMove implied(operands, kind, is_limited ? 0.2 : 0.05);
+    expect_true_verdicts(implied.machine, implied.path, implied.move(), is_limited, operands, trial, count);
+  }
+  for (const auto& [what, times] : count) std::printf("%s: %d\n", what.c_str(), times);
+  EXPECT_GT(count["proved"], kTrials / 8);
+  EXPECT_GT(count["tension"], kTrials / 16);
+  EXPECT_GT(count["too fast"], kTrials / 16);
 }
 
 TEST(Moving, TheFastestProvedMoveIsNearTheSlowestRefutedOne) {
@@ -273,7 +294,7 @@ TEST(Moving, ATurnOfThePlatformChangesItsInertiaByNoMoreThanIsSaid) {
     const Path path = some_move(operands, 0.1);
     const Segment segment = path.segment(0);
     const double s = operands.uniform(0, 1), turn = operands.uniform(0, 0.3);
-    const PathRates<double> at = PathRatesModel<double>(machine.problem).at(segment, s);
+    const PathRates<double> at = PathRatesModel<double>(machine.problem).along_curve(segment, s);
     const Rates<double> rates = by_time(at, operands.uniform(0, 3), operands.uniform(-9, 9));
     const std::vector<MovingBody<double>> bodies = make_moving_bodies<double>(machine.problem.load);
     const Eigen::Vector3d axis(operands.uniform(-1, 1), operands.uniform(-1, 1), operands.uniform(-1, 1));

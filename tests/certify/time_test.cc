@@ -10,10 +10,13 @@
 #include <random>
 
 #include "certify/motion/law_range.h"
+#include "certify/motion/motion_rates.h"
 #include "kinematics/moving_load.h"
 #include "kinematics/path_rates.h"
+#include "kinematics/rates_sampler.h"
 #include "tests/oracle/moving.h"
 #include "tests/support/enclosing.h"
+#include "tests/support/implied_moves.h"
 #include "tests/support/segments.h"
 
 namespace taut::testing {
@@ -99,7 +102,16 @@ TEST(TimeLaw, RestsWhereItHasTo) {
   EXPECT_EQ(of({still.begin(), still.end()}, kSpline, {-1, 0, 1, 2, 3, 4}), "");
   EXPECT_THAT(of({at(0), at(0), at(1), at(1)}, kSpline, moving), HasSubstr("three control values of 0"));
   EXPECT_EQ(of({at(0), at(0), at(1), at(1)}, kSpline, {0, 0, 0, 0.5, 1, 1, 1}), "");
-  EXPECT_THAT(of({at(0), at(1)}, Interpolation::kGeodesic, moving), HasSubstr("straight segments or a spline"));
+  // Only with its normals a control point that is repeated holds a motion on constraints.
+  std::vector<Waypoint> constrained = still;
+  for (Waypoint& point : constrained) point.normals.assign(6, 0.5);
+  EXPECT_EQ(of(constrained, kSpline, {-1, 0, 1, 2, 3, 4}), "");
+  constrained[2].normals[5] = 0.25;
+  EXPECT_THAT(of(constrained, kSpline, {-1, 0, 1, 2, 3, 4}), HasSubstr("three control values of 0"));
+  for (const Interpolation law : {Interpolation::kGeodesic, Interpolation::kCableLengths}) {
+    EXPECT_THAT(of({at(0), at(1)}, law, {-0.25, 0, 0.25, 0.75, 1, 1.25}), HasSubstr("three control values of 0"));
+    EXPECT_EQ(of({at(0), at(1)}, law, {0, 0, 0, 0.5, 1, 1, 1}), "");
+  }
 }
 
 template <class Scalar>
@@ -175,6 +187,27 @@ MovingBody<I> body_of(const Cloud& cloud, const Vector3<I>& load_point) {
   return body;
 }
 
+/// That enclosures at time 0 of a move hold what quotients of differences say.
+template <class I>
+void expect_as_differences(const Problem& problem, const oracle::Move& move, const Cloud& cloud,
+                           const Vector6<I>& wrench, const WinchRates<I>& winches) {
+  std::vector<oracle::Particle> particles;
+  for (std::size_t n = 0; n < cloud.points.size(); ++n) {
+    const auto& [x, y, z] = cloud.points[n];
+    particles.push_back({{BigFloat(x), BigFloat(y), BigFloat(z)}, BigFloat(cloud.masses[n])});
+  }
+  const BigFloat now(0.0);
+  const oracle::Big6 sum = move.inertia(particles, oracle::big(problem.load.point_m), now);
+  const BigFloat error = oracle::big("1e-30");
+  for (int k = 0; k < 6; ++k) EXPECT_TRUE(holds(wrench(k), sum[static_cast<std::size_t>(k)], error)) << k;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const auto [speed, change] =
+        move.winch(oracle::big(problem.robot.base_anchors_m[i]), oracle::big(problem.robot.platform_anchors_m[i]), now);
+    EXPECT_TRUE(holds(winches.speed[i], speed, error));
+    EXPECT_TRUE(holds(winches.acceleration[i], change, error));
+  }
+}
+
 TYPED_TEST(InTime, LoadsAndWinchesMoveAsDifferencesSay) {
   using I = typename TypeParam::I;
   const std::vector<Space> spaces = {slice_space(), sphere_space(), free_space(robot2_sphere()), curved_space()};
@@ -193,7 +226,7 @@ TYPED_TEST(InTime, LoadsAndWinchesMoveAsDifferencesSay) {
     WinchRates<I> winches;
     const bool is_sound = TypeParam::run([&] {
       const Model<I> model = make_model_without_ellipsoid<I>(space.problem);
-      const PathRates<I> path = PathRatesModel<I>(space.problem).at(segment, I(s - radius, s + radius));
+      const PathRates<I> path = PathRatesModel<I>(space.problem).along_curve(segment, I(s - radius, s + radius));
       const Rates<I> rates = by_time(path, I(rate), I(acceleration));
       wrench = inertial_wrench<I>({body_of<I>(cloud, model.p_PM)}, path.r_WP, rates);
       winches = winch_rates(model, path.p, path.r_WP, rates);
@@ -206,27 +239,87 @@ TYPED_TEST(InTime, LoadsAndWinchesMoveAsDifferencesSay) {
       const BigFloat place = BigFloat(s) + tau * (BigFloat(rate) + BigFloat(acceleration) * tau / BigFloat(2.0));
       return space.pose(parameters_at(ends.a, ends.b, place));
     });
-    std::vector<oracle::Particle> particles;
-    for (std::size_t n = 0; n < cloud.points.size(); ++n) {
-      const auto& [x, y, z] = cloud.points[n];
-      particles.push_back({{BigFloat(x), BigFloat(y), BigFloat(z)}, BigFloat(cloud.masses[n])});
-    }
-    const BigFloat now(0.0);
-    const oracle::Big6 sum = move.inertia(particles, oracle::big(space.problem.load.point_m), now);
-    const BigFloat error = oracle::big("1e-30");
-    for (int k = 0; k < 6; ++k) EXPECT_TRUE(holds(wrench(k), sum[static_cast<std::size_t>(k)], error)) << k;
-    for (std::size_t i = 0; i < kCables; ++i) {
-      const auto [speed, change] = move.winch(oracle::big(space.problem.robot.base_anchors_m[i]),
-                                              oracle::big(space.problem.robot.platform_anchors_m[i]), now);
-      EXPECT_TRUE(holds(winches.speed[i], speed, error));
-      EXPECT_TRUE(holds(winches.acceleration[i], change, error));
-    }
+    expect_as_differences(space.problem, move, cloud, wrench, winches);
     if (radius == 0) {
       const BigFloat width = upper_end(wrench(0)) - lower_end(wrench(0));
       EXPECT_LT(width.to_double(MPFR_RNDN), 1e-9);
     }
   }
   EXPECT_GT(enclosed, kTrials * 9 / 10);
+}
+
+TYPED_TEST(InTime, MotionsThatAreImpliedMoveAsDifferencesSay) {
+  using I = typename TypeParam::I;
+  Operands operands(23);
+  std::array<int, ImpliedMove::kKinds> enclosed{};
+  double widest = 0;
+  constexpr int kTrials = 64;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const auto kind = static_cast<std::size_t>(trial % ImpliedMove::kKinds);
+    const ImpliedMove implied(operands, static_cast<ImpliedMove::Kind>(kind), 0.2);
+    const auto k = static_cast<std::size_t>(operands.pick(static_cast<int>(implied.path.segments())));
+    const Segment segment = implied.path.segment(k);
+    const double s = operands.uniform(0.01, 0.99), rate = operands.uniform(0, 2), change = operands.uniform(-2, 2);
+    const double radius = operands.coin(0.5) ? 0 : 0.004;
+    const Cloud cloud = some_cloud(operands);
+    const Problem& problem = implied.machine.problem;
+    std::optional<PathRates<I>> path;
+    Vector6<I> wrench;
+    WinchRates<I> winches;
+    const bool is_sound = TypeParam::run([&] {
+      const Model<I> model = make_model_without_ellipsoid<I>(problem);
+      path = MotionRates<I>(problem).over(model, segment, I(s - radius, s + radius));
+      if (!path) return;
+      const Rates<I> rates = by_time(*path, I(rate), I(change));
+      wrench = inertial_wrench<I>({body_of<I>(cloud, model.p_PM)}, path->r_WP, rates);
+      winches = winch_rates(model, path->p, path->r_WP, rates);
+    });
+    if (!is_sound || !path) continue;
+    ++enclosed[kind];
+
+    const PrecisionScope precision(oracle::kMovingBits);
+    // In the middle of the part and elsewhere in it.
+    for (const double at : {s, s + radius * operands.uniform(-1, 1)}) {
+      const oracle::Move move([&](const BigFloat& tau) {
+        const BigFloat along = tau * (BigFloat(rate) + BigFloat(change) * tau / BigFloat(2.0));
+        return implied.pose(BigFloat(static_cast<double>(k)) + BigFloat(at) + along);
+      });
+      expect_as_differences(problem, move, cloud, wrench, winches);
+    }
+    if (radius > 0) continue;
+    for (int c = 0; c < 6; ++c) widest = std::max(widest, spread(wrench(c)));
+    const PathRates<double> sampled = RatesSampler(problem).at(segment, s);
+    const auto expect_near = [](const Vector3<I>& said, const Vector3<double>& seen) {
+      for (int c = 0; c < 3; ++c) EXPECT_TRUE(holds(said(c), BigFloat(seen(c)), BigFloat(1e-8 * (1 + seen.norm()))));
+    };
+    expect_near(path->p, sampled.p);
+    expect_near(path->p1, sampled.p1);
+    expect_near(path->p2, sampled.p2);
+    expect_near(path->w, sampled.w);
+    expect_near(path->w1, sampled.w1);
+  }
+  for (const int count : enclosed) EXPECT_GT(count, kTrials / ImpliedMove::kKinds * 3 / 4);
+  EXPECT_LT(widest, 1e-7);
+}
+
+TYPED_TEST(InTime, AGeodesicThatMayBeHalfATurnHasNoRates) {
+  using I = typename TypeParam::I;
+  const Problem problem = free_flying(robot2_sphere());
+  const auto pose = [](double qz, double qw) { return Waypoint{{0, 0, 0.3, 0, 0, qz, qw}, {}}; };
+  const auto are_known = [&](const Waypoint& a, const Waypoint& b) {
+    bool result = false;
+    const bool is_sound = TypeParam::run([&] {
+      const Model<I> model = make_model_without_ellipsoid<I>(problem);
+      result = MotionRates<I>(problem)
+                   .over(model, Segment::between(Interpolation::kGeodesic, a, b), I(0.25, 0.5))
+                   .has_value();
+    });
+    return is_sound && result;
+  };
+  EXPECT_FALSE(are_known(pose(0, 1), pose(1, 0)));
+  EXPECT_TRUE(are_known(pose(0, 1), pose(1, 0x1p-20)));
+  EXPECT_TRUE(are_known(pose(0, 1), pose(0, 1)));  // no turn at all
+  EXPECT_TRUE(are_known(pose(0.5, 1), pose(-1, -2)));
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "certificate/implied_motion.h"
 #include "checker/kernel/box_proof.h"
 #include "checker/kernel/second_jet.h"
 #include "checker/witness.h"
 #include "tests/checker/kernel.h"
+#include "tests/support/implied_moves.h"
 #include "tests/support/moves.h"
 
 namespace taut::checker {
@@ -42,8 +44,21 @@ Problem to_kernel_in_time(const testing::MovingMachine& machine) {
 
 Path to_kernel(const taut::Path& path) {
   Path result;
-  result.law = path.interpolation == Interpolation::kStraight ? Law::kStraight : Law::kCubicBSpline;
-  for (const taut::Waypoint& w : path.waypoints) result.waypoints.push_back({w.x, w.half_turns, {}});
+  switch (path.interpolation) {
+    case Interpolation::kStraight: result.law = Law::kStraight; break;
+    case Interpolation::kCubicBSpline: result.law = Law::kCubicBSpline; break;
+    case Interpolation::kGeodesic: result.law = Law::kGeodesic; break;
+    case Interpolation::kCableLengths: result.law = Law::kCableLengths; break;
+  }
+  for (const taut::Waypoint& w : path.waypoints) result.waypoints.push_back({w.x, w.half_turns, w.normals});
+  result.tubes = path.tubes;
+  for (const taut::PoseTube& tube : path.pose_tubes) result.pose_tubes.push_back({tube.position, tube.turn});
+  for (const auto& poses : path.inner_poses) {
+    std::vector<InnerPose>& inner = result.inner_poses.emplace_back();
+    for (const taut::InnerPose& pose : poses) {
+      inner.push_back({mpq_class(pose.s), pose.x, {pose.tube.position, pose.tube.turn}});
+    }
+  }
   result.timing = TimeLaw{path.timing->step_s, path.timing->controls};
   return result;
 }
@@ -76,7 +91,7 @@ TEST(KernelMoving, LawsThatAreNoneOrDoNotRestAreRejected) {
     path.waypoints = std::move(points);
     path.timing = TimeLaw{step, std::move(controls)};
     try {
-      require_time_law(problem, path);
+      require_time_law(path);
     } catch (const Rejected&) {
       return false;
     }
@@ -94,10 +109,42 @@ TEST(KernelMoving, LawsThatAreNoneOrDoNotRestAreRejected) {
     EXPECT_FALSE(is_law(corner, Law::kStraight, wrong)) << wrong[2];
   }
   EXPECT_FALSE(is_law(corner, Law::kStraight, {0, 0, 0, 1, 1, 1, 2, 2, 2}, 0));
-  EXPECT_FALSE(is_law({point(0), point(1)}, Law::kGeodesic, {0, 0, 0, 1, 1, 1}));
+  for (const Law law : {Law::kGeodesic, Law::kCableLengths}) {
+    EXPECT_TRUE(is_law({point(0), point(1)}, law, {0, 0, 0, 1, 1, 1}));
+    EXPECT_FALSE(is_law({point(0), point(1)}, law, {-0.25, 0, 0.25, 0.75, 1, 1.25}));
+    EXPECT_FALSE(is_law(corner, law, {0, 0, 0, 0.5, 1, 1.5, 2, 2, 2}));
+  }
   const std::vector<Waypoint> still = {point(0), point(0), point(0), point(1), point(1), point(1)};
   EXPECT_TRUE(is_law(still, Law::kCubicBSpline, {-1, 0, 1, 2, 3, 4}));
   EXPECT_FALSE(is_law({still.begin() + 1, still.end()}, Law::kCubicBSpline, {-1, 0, 1, 2, 3}));
+  std::vector<Waypoint> turning = still;
+  turning[0].normals = {1};  // on constraints, repeated control points rest only with their normals
+  EXPECT_FALSE(is_law(turning, Law::kCubicBSpline, {-1, 0, 1, 2, 3, 4}));
+}
+
+/// That what the kernel says of a box holds at a time at which the move is there.
+void expect_as_particles(const Moving& said, const testing::MovingMachine& machine, const oracle::Move& move,
+                         const BigFloat& t, int trial) {
+  const taut::Problem& problem = machine.problem;
+  const oracle::Big6 inertia = move.inertia(machine.particles(), oracle::big(problem.load.point_m), t);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_TRUE(holds(said.inertia[i], inertia[i], kError)) << trial << " " << i;
+  const auto [v, a] = move.rates(oracle::big(problem.load.point_m), t);
+  const oracle::Big3 origin = {BigFloat(0.0), BigFloat(0.0), BigFloat(0.0)};
+  for (const RateMargin& margin : said.margins) {
+    const auto winch = [&] {
+      return move.winch(oracle::big(problem.robot.base_anchors_m[margin.cable]),
+                        oracle::big(problem.robot.platform_anchors_m[margin.cable]), t);
+    };
+    BigFloat rate(0.0);
+    switch (margin.kind) {
+      case RateKind::kWinchSpeed: rate = abs(winch().first); break;
+      case RateKind::kWinchAcceleration: rate = abs(winch().second); break;
+      case RateKind::kLoadSpeed: rate = oracle::distance(v, origin); break;
+      case RateKind::kLoadAcceleration: rate = oracle::distance(a, origin); break;
+      default: continue;
+    }
+    EXPECT_TRUE(holds(margin.value, -rate, kError)) << trial << " " << static_cast<int>(margin.kind);
+  }
 }
 
 TEST(KernelMoving, InertiaAndRatesAreThoseOfParticles) {
@@ -114,27 +161,7 @@ TEST(KernelMoving, InertiaAndRatesAreThoseOfParticles) {
     const Moving said = moving(machine, problem, path, random.k, random.box);
     const oracle::Move move = testing::oracle_of(random.path);
     for (const double u : {-1.0, 1.0, operands.uniform(-1, 1)}) {
-      const BigFloat t = random.time(u);
-      const oracle::Big6 inertia =
-          move.inertia(random.machine.particles(), oracle::big(random.machine.problem.load.point_m), t);
-      for (std::size_t i = 0; i < 6; ++i) EXPECT_TRUE(holds(said.inertia[i], inertia[i], kError)) << trial << " " << i;
-      const auto [v, a] = move.rates(oracle::big(random.machine.problem.load.point_m), t);
-      const oracle::Big3 origin = {BigFloat(0.0), BigFloat(0.0), BigFloat(0.0)};
-      for (const RateMargin& margin : said.margins) {
-        const auto winch = [&] {
-          return move.winch(oracle::big(random.machine.problem.robot.base_anchors_m[margin.cable]),
-                            oracle::big(random.machine.problem.robot.platform_anchors_m[margin.cable]), t);
-        };
-        BigFloat rate(0.0);
-        switch (margin.kind) {
-          case RateKind::kWinchSpeed: rate = abs(winch().first); break;
-          case RateKind::kWinchAcceleration: rate = abs(winch().second); break;
-          case RateKind::kLoadSpeed: rate = oracle::distance(v, origin); break;
-          case RateKind::kLoadAcceleration: rate = oracle::distance(a, origin); break;
-          default: continue;
-        }
-        EXPECT_TRUE(holds(margin.value, -rate, kError)) << trial << " " << static_cast<int>(margin.kind);
-      }
+      expect_as_particles(said, random.machine, move, random.time(u), trial);
     }
     for (const Ball& x : said.inertia) {
       if (is_small) widest = std::max(widest, width(x));
@@ -243,6 +270,49 @@ TEST(KernelMoving, LimitsAreKeptOnLargeBoxesJustWhereParticlesKeepThem) {
     if (!std::ranges::all_of(whole.margins, is_kept)) ++parted;
   }
   EXPECT_GT(parted, 5) << "boxes that are far too large to be proved at one go";
+}
+
+TEST(KernelMoving, InertiaAndRatesOfImpliedMotionsAreThoseOfParticles) {
+  const PrecisionScope oracle(oracle::kMovingBits);
+  Operands operands(43);
+  std::array<int, testing::ImpliedMove::kKinds> said_of{};
+  double widest = 0;
+  constexpr int kTrials = 32;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const auto kind = static_cast<std::size_t>(trial % testing::ImpliedMove::kKinds);
+    const testing::ImpliedMove implied(operands, static_cast<testing::ImpliedMove::Kind>(kind), 0.1);
+    const Problem problem = to_kernel_in_time(implied.machine);
+    const Path path = to_kernel(implied.path);
+    const auto k = static_cast<std::size_t>(operands.pick(static_cast<int>(path.segments())));
+    const int depth = trial % 3 == 0 ? 24 : 6 + operands.pick(4), begin = operands.pick(1 << depth);
+    Box box = dyadic_box(begin, begin + 1, depth);
+    const WorkingPrecision precision(box.bits);
+    const Machine machine(problem);
+    if (is_implied(problem, path)) {
+      const auto spans = [&](const InnerPose& pose) { return box.begin < pose.s && pose.s < box.end; };
+      if (!path.inner_poses.empty() && std::ranges::any_of(path.inner_poses[k], spans)) continue;
+      box.near = find_motion(machine, problem, path, k, box);
+      if (!box.near) continue;
+    }
+    std::optional<Moving> said;
+    try {
+      said = moving(machine, problem, path, k, box);
+    } catch (const Undefined&) {
+      continue;
+    }
+    ++said_of[kind];
+    const oracle::Move move = implied.move();
+    for (const double u : {-1.0, 1.0, operands.uniform(-1, 1)}) {
+      const BigFloat at = BigFloat(static_cast<double>(k)) + place(box, u);
+      expect_as_particles(*said, implied.machine, move, testing::time_at(*implied.path.timing, at), trial);
+    }
+    for (const Ball& x : said->inertia) {
+      if (depth == 24) widest = std::max(widest, width(x));
+    }
+  }
+  for (const int count : said_of) EXPECT_GT(count, kTrials / testing::ImpliedMove::kKinds * 3 / 4);
+  std::printf("widest w_in of boxes of 2^-24: %.3g\n", widest);
+  EXPECT_LT(widest, 1e-3);
 }
 
 TEST(KernelMoving, BoxesAreProvedWithInertia) {
@@ -568,7 +638,7 @@ TEST(KernelMoving, AWitnessIsAboutAllTimesAtWhichTheMoveIsThere) {
   path.waypoints = {waypoint({0, 0, 0.3, 0, 0.1, 0}), waypoint({0.02, 0, 0.3, 0, 0.1, 0.1})};
   // From 0 to 1/2, where it rests from 1.5 s on, until 2 s, and then on to 1.
   path.timing = TimeLaw{0.5, {0, 0, 0, 0.5, 0.5, 0.5, 0.5, 1, 1, 1}};
-  ASSERT_NO_THROW(require_time_law(problem, path));
+  ASSERT_NO_THROW(require_time_law(path));
   const WorkingPrecision precision(128);
   const Machine machine(problem);
   Witness witness;

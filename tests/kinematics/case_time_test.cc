@@ -257,9 +257,6 @@ TEST(CaseTime, IsRefusedWithPlaceFieldAndValue) {
 }
 
 TEST(CaseTime, IsRefusedBesideWhatItDoesNotGoWith) {
-  Sections implicit;
-  implicit.space = "space:\n  implicit: [\"px - py\"]\n";
-  expect_rejected(implicit, "crane.yaml:15:13: space.implicit: got [px - py], expected no constraints beside 'time'");
   Sections massless;
   massless.load =
       "load:\n"
@@ -279,9 +276,8 @@ TEST(CaseTime, IsRefusedBesideWhatItDoesNotGoWith) {
   around_items.load.insert(around_items.load.find("  items:"), "  ellipsoid: around_items\n");
   expect_rejected(around_items,
                   "crane.yaml:20:7: time: got a load with 'ellipsoid: around_items', expected the items alone");
-  for (Sections sections : {implicit, massless, around_items}) {
+  for (Sections sections : {massless, around_items}) {
     sections.time = "";
-    if (sections.space == implicit.space) sections.query = "";
     EXPECT_NO_THROW((void)parse(sections)) << sections.text();
   }
 }

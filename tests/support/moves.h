@@ -62,18 +62,8 @@ inline Waypoint some_pose(Operands& operands) {
              operands.uniform(-0.3, 0.3), operands.uniform(0, 0.25), operands.uniform(-0.3, 0.3)});
 }
 
-/// A straight segment or a spline, and a law over it.
-inline Path some_move(Operands& operands, double shortest_s) {
-  Path path;
-  const Waypoint a = some_pose(operands), b = some_pose(operands), c = some_pose(operands);
-  if (operands.pick(3) == 0) {
-    path.waypoints = {a, b};
-  } else {
-    path.waypoints =
-        operands.pick(2) == 0 ? std::vector<Waypoint>{a, a, a, b, c, c, c} : std::vector<Waypoint>{a, a, b, c};
-    path.interpolation = Interpolation::kCubicBSpline;
-  }
-  const auto segments = static_cast<double>(path.segments());
+/// A law over so many segments, which takes some times `shortest_s` for each.
+inline TimeLaw some_time_law(Operands& operands, double segments, double shortest_s) {
   const int pieces = 4 + operands.pick(12);
   TimeLaw law{0x1p-20 * std::ceil(std::ldexp(shortest_s * std::exp(operands.uniform(0, 3)) * segments / pieces, 20)),
               {}};
@@ -86,7 +76,21 @@ inline Path some_move(Operands& operands, double shortest_s) {
   law.controls = {-values[1]};
   law.controls.insert(law.controls.end(), values.begin(), values.end());
   law.controls.push_back(segments + (segments - values[values.size() - 2]));
-  path.timing = law;
+  return law;
+}
+
+/// A straight segment or a spline, and a law over it.
+inline Path some_move(Operands& operands, double shortest_s) {
+  Path path;
+  const Waypoint a = some_pose(operands), b = some_pose(operands), c = some_pose(operands);
+  if (operands.pick(3) == 0) {
+    path.waypoints = {a, b};
+  } else {
+    path.waypoints =
+        operands.pick(2) == 0 ? std::vector<Waypoint>{a, a, a, b, c, c, c} : std::vector<Waypoint>{a, a, b, c};
+    path.interpolation = Interpolation::kCubicBSpline;
+  }
+  path.timing = some_time_law(operands, static_cast<double>(path.segments()), shortest_s);
   return path;
 }
 
