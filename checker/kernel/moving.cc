@@ -345,6 +345,16 @@ class AtSpeed {
   Rates rates_;
 };
 
+enum class Half { kFirst, kSecond };
+/// The guess for a half of a box, in the u of that half; the kernel proves it like any other.
+void take_half(std::optional<NearZero>& near, Half half) {
+  if (!near) return;
+  for (std::size_t i = 0; i < near->at.size(); ++i) {
+    near->slope[i] /= 2;
+    near->at[i] += half == Half::kFirst ? -near->slope[i] : near->slope[i];
+  }
+}
+
 /// Whether all limits but those of power are shown to be kept over a box, or over all parts of it.
 bool are_kept(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, Box box, int halvings) {
   const OnBox on_box(machine, problem, path, k, box);
@@ -354,11 +364,13 @@ bool are_kept(const Machine& machine, const Problem& problem, const Path& path, 
   };
   if (std::ranges::all_of(extreme_speeds(problem, on_box.law), keeps)) return true;
   if (halvings == 0) return false;
-  const mpq_class begin = box.begin, middle = (box.begin + box.end) / 2;
-  box.begin = middle;
-  if (!are_kept(machine, problem, path, k, box, halvings - 1)) return false;
-  box.end = std::exchange(box.begin, begin);
-  return are_kept(machine, problem, path, k, box, halvings - 1);
+  const mpq_class middle = (box.begin + box.end) / 2;
+  Box first = box;
+  first.end = box.begin = middle;
+  take_half(first.near, Half::kFirst);
+  take_half(box.near, Half::kSecond);
+  return are_kept(machine, problem, path, k, first, halvings - 1) &&
+         are_kept(machine, problem, path, k, box, halvings - 1);
 }
 
 }  // namespace
