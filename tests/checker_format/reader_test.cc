@@ -711,6 +711,7 @@ TEST(Reader, NamesWhatIsWrongWithAMove) {
   with_constraint["version"] = 6;
   with_constraint["problem"]["time"] = limits_in_time();
   with_constraint["path"]["timing"] = moving()["path"]["timing"];
+  with_constraint["path"]["times"] = nullptr;
   with_constraint["claim"] = std::string(kProvedClaim) + kMoveClause;
   EXPECT_EQ(message(sealed(with_constraint)), "none");
 
