@@ -6,7 +6,7 @@ All planned cases of Table I that Coq is told of, a spline, and one with load it
 are of the processor, user and system; processes run one after the other. Of coqc what it takes to load its libraries,
 measured beside, is taken away.
 
-Usage: formal.py RESULTS TAUT TAUT_CHECK     writes RESULTS/formal.md
+Usage: formal.py RESULTS TAUT TAUT_CHECK [--quick]     writes RESULTS/formal.md; --quick measures everything once
 """
 import os
 import re
@@ -16,6 +16,7 @@ import sys
 import tempfile
 
 RESULTS, TAUT, CHECK = sys.argv[1:4]
+REPEATS = 1 if "--quick" in sys.argv[4:] else 3
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 LIBRARY = os.path.join(ROOT, "formal")
 VERIFY = os.path.join(LIBRARY, "taut-verify")
@@ -55,14 +56,15 @@ def coqc(folder, text):
     file = os.path.join(folder, "asked.v")
     with open(file, "w", encoding="utf-8") as out:
         out.write(text)
-    return seconds(["coqc", "-q", "-Q", LIBRARY, "Taut", file], 3)[0]
+    return seconds(["coqc", "-q", "-Q", LIBRARY, "Taut", file], REPEATS)[0]
 
 
 def row(case, folder):
     certificate, written, boxes = (os.path.join(folder, name) for name in ("certificate.json", "path.v", "boxes.json"))
     seconds([TAUT, "plan", case, "--out", folder, "--no-report", "--headroom", "0"], 1)
     said = seconds([TAUT, "formal", certificate, "--no-coq", "--out", written, "--boxes", boxes], 1)[1]
-    check, verify = seconds([CHECK, certificate], 5)[0], seconds([VERIFY, certificate, boxes], 3)[0]
+    check, verify = (seconds(command, REPEATS)[0]
+                     for command in ([CHECK, certificate], [VERIFY, certificate, boxes]))
     with open(written, encoding="utf-8") as file:
         exact = file.read()
     head = exact[:exact.index("Theorem feasible")]
