@@ -587,37 +587,22 @@ std::vector<std::string> Case::load_statement() const {
 
 std::vector<std::string> Case::warnings() const { return content_->of.whole.warnings; }
 
-namespace {
-
-/// Of the case, or of each leg.
-std::vector<CaseSummary> summaries_of(const CaseOfLegs& of) {
-  std::vector<CaseSummary> result;
-  result.reserve(of.legs.size() + 1);
-  for (const CaseLeg& leg : of.legs) result.emplace_back(leg.content);
-  if (of.legs.empty()) result.emplace_back(of.whole);
-  return result;
-}
-
-}  // namespace
-
 std::string Case::summary() const {
-  return within(ErrorCode::kCase, [&] {
-    const std::vector<CaseSummary> summaries = summaries_of(content_->of);
-    return content_->of.legs.empty() ? to_text(summaries.front()) : to_text(content_->of, summaries);
-  });
+  return within(ErrorCode::kCase, [&] { return to_text(content_->of, summaries_of(content_->of)); });
 }
 
 std::string Case::summary_json() const {
   return within(ErrorCode::kCase, [&] {
-    const std::vector<CaseSummary> summaries = summaries_of(content_->of);
-    const nlohmann::json json =
-        content_->of.legs.empty() ? to_json(summaries.front()) : to_json(content_->of, summaries);
+    const nlohmann::json json = to_json(content_->of, summaries_of(content_->of));
     return json.dump(1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
   });
 }
 
 std::string Case::drawing_svg() const {
-  return within(ErrorCode::kCase, [&] { return robot_drawing(summaries_of(content_->of).front()); });
+  return within(ErrorCode::kCase, [&] {
+    const CaseOfLegs& of = content_->of;
+    return robot_drawing(CaseSummary(of.legs.empty() ? of.whole : of.legs.front().content));
+  });
 }
 
 // --- Certificates ----------------------------------------------------------------------------------------------------

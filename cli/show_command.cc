@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -33,18 +32,14 @@ int run_show(const ShowArguments& arguments) {
   if (!arguments.out.empty()) require_another(arguments.out, arguments.case_path);
   const CaseOfLegs the_case = load_case_of_legs(arguments.case_path);
   for (const std::string& warning : the_case.whole.warnings) complain("warning: " + warning);
-  std::vector<CaseSummary> summaries;
-  summaries.reserve(std::max(the_case.legs.size(), std::size_t{1}));
-  for (const CaseLeg& leg : the_case.legs) summaries.emplace_back(leg.content);
-  if (the_case.legs.empty()) summaries.emplace_back(the_case.whole);
-  const bool has_legs = !the_case.legs.empty();
+  const std::vector<CaseSummary> summaries = summaries_of(the_case);
   if (!arguments.out.empty()) write_whole({{arguments.out, robot_drawing(summaries.front())}});
   if (arguments.json) {
-    nlohmann::json document = has_legs ? to_json(the_case, summaries) : to_json(summaries.front());
+    nlohmann::json document = to_json(the_case, summaries);
     document["command"] = "show";
     print_json(document);
   } else {
-    fmt::print("{}", sanitize_lines(has_legs ? to_text(the_case, summaries) : to_text(summaries.front())));
+    fmt::print("{}", sanitize_lines(to_text(the_case, summaries)));
     if (!arguments.out.empty()) fmt::print("\nWritten: {}\n", sanitize(arguments.out));
   }
   return kProvedExit;

@@ -363,9 +363,11 @@ let () =
         let c = certificate (read file) (read boxes) in
         if Exact.N.C.check c then
           Printf.printf
-            "verified: everywhere along the path (%d segments), for every wrench of the load, exactly one list of \
-             tensions balances it, and all tensions and all lengths are strictly within their limits.\n"
-            (List.length c.boxes)
+            "verified: everywhere along the path (%d segment%s), for every wrench of the load, exactly one list of \
+             tensions balances it, and all tensions and all lengths are strictly within their limits.\n\
+             Not verified: how large margins are, that parameters stay in their ranges, that the path leads where the \
+             query asked, and who signed.\n"
+            (List.length c.boxes) (if List.length c.boxes = 1 then "" else "s")
         else begin
           print_endline "REFUSED: the checker does not accept it with these boxes.";
           exit 1

@@ -121,12 +121,18 @@ template <class S>
   return result;
 }
 
-/// Of the pose (p, R) whose cables have the lengths L_i, which change at the constant rates L_i' by s; divide(v) is the
-/// inverse of length_gradients() times v.
+/// For every s in `range`, of a segment that is straight in cable lengths: (p, R) is the pose there, and divide(v) is
+/// the inverse of length_gradients() times v.
 template <class S, class Divide>
 [[nodiscard]] PathRates<S> rates_of_lengths(const Model<S>& model, const Vector3<S>& p_WP, const Matrix3<S>& r_WP,
-                                            const std::array<S, kCables>& lengths,
-                                            const std::array<S, kCables>& length_rates, const Divide& divide) {
+                                            const Segment& segment, const S& range, const Divide& divide) {
+  constexpr std::size_t kFirstLength = 7;
+  std::array<S, kCables> lengths, length_rates;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Polynomial<S> line = coordinate_polynomial<S>(segment, kFirstLength + i);
+    lengths[i] = line.at(range);
+    length_rates[i] = line.slope(range);
+  }
   PathRates<S> result;
   result.p = p_WP;
   result.r_WP = r_WP;

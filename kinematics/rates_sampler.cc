@@ -53,17 +53,10 @@ PathRates<double> RatesSampler::along_geodesic(const Segment& segment, double s)
 }
 
 PathRates<double> RatesSampler::of_lengths(const Segment& segment, double s) const {
-  constexpr std::size_t kFirstLength = 7;
   const RigidPose pose = poses_.rigid_pose(segment, s);
   const Matrix3<double> r_WP = pose.q.toRotationMatrix();
-  std::array<double, kCables> lengths, length_rates;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    const auto line = coordinate_polynomial<double>(segment, kFirstLength + i);
-    lengths[i] = line.at(s);
-    length_rates[i] = line.slope(s);
-  }
   const Eigen::PartialPivLU<Matrix6<double>> gradients(length_gradients(poses_.model(), pose.p, r_WP));
-  return rates_of_lengths(poses_.model(), pose.p, r_WP, lengths, length_rates,
+  return rates_of_lengths(poses_.model(), pose.p, r_WP, segment, s,
                           [&](const Vector6<double>& v) { return Vector6<double>(gradients.solve(v)); });
 }
 

@@ -48,21 +48,14 @@ std::optional<PathRates<I>> along_geodesic(const Segment& segment, const I& rang
 
 template <class I>
 std::optional<PathRates<I>> of_lengths(const Model<I>& model, const Segment& segment, const I& range) {
-  constexpr std::size_t kFirstLength = 7;
   const Middle<I> at(range);
   const MotionEnclosure<I> motion = forward_kinematics(model, segment, range, at.mid, at.offset);
   if (!motion.is_enclosed()) return std::nullopt;
   const Vector3<I> p = ranges(motion.p_WP);
   const Matrix3<I> r = ranges(motion.r_WP);
-  std::array<I, kCables> lengths, length_rates;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    const auto line = coordinate_polynomial<I>(segment, kFirstLength + i);
-    lengths[i] = line.at(range);
-    length_rates[i] = line.slope(range);
-  }
   EnclosedInverse<I> inverse;
   if (!inverse.set(length_gradients(model, p, r))) return std::nullopt;
-  return rates_of_lengths(model, p, r, lengths, length_rates, [&](const Vector6<I>& v) { return inverse.times(v); });
+  return rates_of_lengths(model, p, r, segment, range, [&](const Vector6<I>& v) { return inverse.times(v); });
 }
 
 }  // namespace

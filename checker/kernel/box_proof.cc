@@ -110,8 +110,7 @@ Bounds prove_box(const Machine& machine, const Problem& problem, const Path& pat
     loss = loss_to_deviations(at, nullptr);
     result = bounds_at(at, nullptr, loss);
   } else {
-    require_limits_in_time(machine, problem, path, k, box);
-    for (Moving& at_corner : moving_at_extremes(machine, problem, path, k, box)) {
+    for (Moving& at_corner : moving_within_limits(machine, problem, path, k, box)) {
       const InTime move = in_time(machine, std::move(at_corner));
       loss = loss_to_deviations(at, &move);
       const Bounds here = bounds_at(at, &move, loss);

@@ -2,6 +2,7 @@
 #include "checker/kernel/moving.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -356,21 +357,21 @@ void take_half(std::optional<NearZero>& near, Half half) {
 }
 
 /// Whether all limits but those of power are shown to be kept over a box, or over all parts of it.
-bool are_kept(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, Box box, int halvings) {
-  const OnBox on_box(machine, problem, path, k, box);
+bool are_kept(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
+              const OnBox& on_box, int halvings) {
   const auto keeps = [&](const Speed& speed) {
     return std::ranges::all_of(AtSpeed(machine, problem, on_box, speed).margins(),
                                [](const RateMargin& margin) { return certainly_positive(margin.value); });
   };
   if (std::ranges::all_of(extreme_speeds(problem, on_box.law), keeps)) return true;
   if (halvings == 0) return false;
-  const mpq_class middle = (box.begin + box.end) / 2;
-  Box first = box;
-  first.end = box.begin = middle;
+  Box first = box, second = box;
+  first.end = second.begin = (box.begin + box.end) / 2;
   take_half(first.near, Half::kFirst);
-  take_half(box.near, Half::kSecond);
-  return are_kept(machine, problem, path, k, first, halvings - 1) &&
-         are_kept(machine, problem, path, k, box, halvings - 1);
+  take_half(second.near, Half::kSecond);
+  return std::ranges::all_of(std::array{&first, &second}, [&](const Box* half) {
+    return are_kept(machine, problem, path, k, *half, OnBox(machine, problem, path, k, *half), halvings - 1);
+  });
 }
 
 }  // namespace
@@ -387,21 +388,18 @@ Moving moving(const Machine& machine, const Problem& problem, const Path& path, 
   return result;
 }
 
-std::vector<Moving> moving_at_extremes(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                                       const Box& box) {
+std::vector<Moving> moving_within_limits(const Machine& machine, const Problem& problem, const Path& path,
+                                         std::size_t k, const Box& box) {
+  constexpr int kHalvings = 7;  // of the box; what takes more is next to a limit
   const OnBox on_box(machine, problem, path, k, box);
+  if (!are_kept(machine, problem, path, k, box, on_box, kHalvings)) {
+    throw Undefined("a limit of speeds or accelerations may not be kept");
+  }
   std::vector<Moving> result;
   for (const Speed& speed : extreme_speeds(problem, on_box.law)) {
     result.push_back(AtSpeed(machine, problem, on_box, speed).moving());
   }
   return result;
-}
-
-void require_limits_in_time(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                            const Box& box) {
-  constexpr int kHalvings = 7;  // of the box; what takes more is next to a limit
-  if (are_kept(machine, problem, path, k, box, kHalvings)) return;
-  throw Undefined("a limit of speeds or accelerations may not be kept");
 }
 
 }  // namespace taut::checker

@@ -73,12 +73,10 @@ void require_time_law(const Path& path);
 [[nodiscard]] Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
                             const Box& box);
 /// Likewise at the corners of all speeds at which the move may be run there: what keeps its limits at each of them
-/// keeps them. moving() alone where the problem states no stopping time.
-[[nodiscard]] std::vector<Moving> moving_at_extremes(const Machine& machine, const Problem& problem, const Path& path,
-                                                     std::size_t k, const Box& box);
+/// keeps them. That is one speed where the problem states no stopping time.
 /// Claim: at all of these speeds, limits of speeds and accelerations are kept all over the box. @throws Undefined where
 /// that is not shown.
-void require_limits_in_time(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                            const Box& box);
+[[nodiscard]] std::vector<Moving> moving_within_limits(const Machine& machine, const Problem& problem, const Path& path,
+                                                       std::size_t k, const Box& box);
 
 }  // namespace taut::checker

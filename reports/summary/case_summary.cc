@@ -304,18 +304,27 @@ std::string to_text(const CaseSummary& summary) {
   return text + waypoints_text(summary, units);
 }
 
-std::string to_text(const CaseOfLegs& the_case, std::span<const CaseSummary> legs) {
+std::vector<CaseSummary> summaries_of(const CaseOfLegs& the_case) {
+  std::vector<CaseSummary> result;
+  result.reserve(std::max(the_case.legs.size(), std::size_t{1}));
+  for (const CaseLeg& leg : the_case.legs) result.emplace_back(leg.content);
+  if (the_case.legs.empty()) result.emplace_back(the_case.whole);
+  return result;
+}
+
+std::string to_text(const CaseOfLegs& the_case, std::span<const CaseSummary> summaries) {
+  if (the_case.legs.empty()) return to_text(summaries.front());
   const Case& whole = the_case.whole;
   const DisplayUnits units(whole.units);
   std::string text = head_text(whole.problem, units) + document_text(whole.document_fields) +
                      robot_text(whole.problem.robot, units) + "\n" + tolerances_section(whole.problem, units) +
                      space_text(whole.problem.space) + "\n" +
                      time_text(whole, units, "each leg; at all waypoints the platform is at rest") +
-                     fmt::format("Path between waypoints: {}\n", law_text(legs.front().source));
-  for (std::size_t k = 0; k < legs.size(); ++k) {
-    text += fmt::format("\nLeg {} of {}, {}\n\n", k + 1, legs.size(), the_case.legs[k].name) +
-            load_text(legs[k], units) + stated_bodies_text(legs[k].source);
-    text += waypoints_text(legs[k], units).substr(1);  // without a second empty line
+                     fmt::format("Path between waypoints: {}\n", law_text(summaries.front().source));
+  for (std::size_t k = 0; k < summaries.size(); ++k) {
+    text += fmt::format("\nLeg {} of {}, {}\n\n", k + 1, summaries.size(), the_case.legs[k].name) +
+            load_text(summaries[k], units) + stated_bodies_text(summaries[k].source);
+    text += waypoints_text(summaries[k], units).substr(1);  // without a second empty line
   }
   return text;
 }
@@ -376,10 +385,11 @@ nlohmann::json to_json(const CaseSummary& summary) {
           {"waypoints", waypoints}};
 }
 
-nlohmann::json to_json(const CaseOfLegs& the_case, std::span<const CaseSummary> legs) {
+nlohmann::json to_json(const CaseOfLegs& the_case, std::span<const CaseSummary> summaries) {
+  if (the_case.legs.empty()) return to_json(summaries.front());
   nlohmann::json result = {{"legs", nlohmann::json::array()}, {"warnings", the_case.whole.warnings}};
-  for (std::size_t k = 0; k < legs.size(); ++k) {
-    result["legs"].push_back({{"name", the_case.legs[k].name}, {"case", to_json(legs[k])}});
+  for (std::size_t k = 0; k < summaries.size(); ++k) {
+    result["legs"].push_back({{"name", the_case.legs[k].name}, {"case", to_json(summaries[k])}});
   }
   return result;
 }

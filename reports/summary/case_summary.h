@@ -44,12 +44,14 @@ struct CaseSummary {
 
 /// The summary as text for people; lengths are in the case's own unit.
 [[nodiscard]] std::string to_text(const CaseSummary& summary);
+/// Of each leg, in their order; of a case without legs its own alone. They refer to the case.
+[[nodiscard]] std::vector<CaseSummary> summaries_of(const CaseOfLegs& the_case);
 /// The same of a case of legs: what is one for all, then of each leg its load, its bodies and its waypoints.
-/// @pre the legs are those of the case, in their order
-[[nodiscard]] std::string to_text(const CaseOfLegs& the_case, std::span<const CaseSummary> legs);
+/// @param summaries  summaries_of(the_case)
+[[nodiscard]] std::string to_text(const CaseOfLegs& the_case, std::span<const CaseSummary> summaries);
 /// The summary for programs: `problem` exactly as in a certificate (SI), and `waypoints` in floating point.
 [[nodiscard]] nlohmann::json to_json(const CaseSummary& summary);
-/// Of a case of legs `legs`, of each its `name` and as `case` the summary of it. @pre as to_text()
-[[nodiscard]] nlohmann::json to_json(const CaseOfLegs& the_case, std::span<const CaseSummary> legs);
+/// Of a case of legs `legs`, of each its `name` and as `case` the summary of it. Parameters as of to_text().
+[[nodiscard]] nlohmann::json to_json(const CaseOfLegs& the_case, std::span<const CaseSummary> summaries);
 
 }  // namespace taut
