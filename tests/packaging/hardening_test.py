@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The programs are hardened as a distribution's packages are, whatever the compiler's own defaults.
+"""What is linked: hardened as a distribution's packages are, and of the library its interface only is seen.
 
-Usage: hardening_test.py BUILD_DIR PROGRAM…
+Usage: hardening_test.py BUILD_DIR PROGRAM… LIBRARY
 """
 import json
 import os
@@ -40,6 +40,16 @@ class Hardening(unittest.TestCase):
         for entry in commands:
             for option in ("-fstack-protector-strong", "-fcf-protection", "-D_FORTIFY_SOURCE=2"):
                 self.assertIn(option, entry["command"].split(), entry["file"])
+
+    def test_the_library_shows_its_interface_only(self):
+        self.assertRegex(readelf("--dynamic", PROGRAMS[-1]), r"SONAME.*\[libtaut\.so\.0\.1\]")
+        symbols = subprocess.run(["nm", "-D", "-C", "--defined-only", PROGRAMS[-1]], capture_output=True, text=True,
+                                 check=True, timeout=60).stdout.splitlines()
+        names = sorted({line.split(None, 2)[2] for line in symbols})
+        self.assertTrue(any("taut::v0::plan(" in name for name in names))
+        # Whoever changes this list changes the ABI, and with it the minor version (docs/library.md).
+        with open(os.path.join(os.path.dirname(__file__), "symbols.txt"), encoding="utf-8") as file:
+            self.assertEqual(names, file.read().splitlines())
 
 
 if __name__ == "__main__":
