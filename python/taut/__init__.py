@@ -527,8 +527,8 @@ def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optio
                          refined, selects one
     :param half_turns: (n, columns): parameters are exactly waypoints + π half_turns; only for periodic parameters
     :param times: [s], ascending; not part of any claim
-    :param timing: proves a move in time, of "straight" or "spline", in a case with the key `time`; None: the path is
-        passed slowly
+    :param timing: proves a move in time, in a case with the key `time`; but for splines it rests at each waypoint.
+        None: the path is passed slowly
     """
     if isinstance(waypoints, Path):
         if interpolation is not None or half_turns is not None or len(times) > 0 or timing is not None:

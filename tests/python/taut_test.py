@@ -394,6 +394,18 @@ class MovesInTime(unittest.TestCase):
             taut.prove(self.case, dataclasses.replace(path, timing=taut.TimeLaw(0.0, path.timing.controls)))
         self.assertEqual(caught.exception.field, "timing")
 
+    def test_between_poses_and_in_lengths(self):
+        samples = taut.prove(self.case, self.planned.path.waypoints[[0, -1]]).samples()
+        poses = np.hstack([samples.p_m, samples.quaternion])[[0, -1]]
+        lengths = np.hstack([poses, samples.length_m[[0, -1]]])
+        controls = np.array([0, 0, 0, *np.linspace(0, 1, 9)[1:-1], 1, 1, 1])
+        for interpolation, rows in (("geodesic", poses), ("cable-lengths", lengths)):
+            for seconds, verdict in ((120, "proved"), (12, "refuted")):
+                with self.subTest(interpolation=interpolation, seconds=seconds):
+                    law = taut.TimeLaw(seconds / (len(controls) - 3), controls)
+                    said = taut.prove(self.case, rows, interpolation=interpolation, timing=law)
+                    self.assertEqual((said.verdict, said.duration_s), (verdict, law.duration_s), said.reason)
+
     def test_that_are_too_fast_are_refuted(self):
         path = self.planned.path
         fast = taut.TimeLaw(path.timing.step_s / 2, path.timing.controls)
