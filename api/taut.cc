@@ -282,6 +282,9 @@ Witness outer(const PathWitness& witness, const Problem& problem) {
   }
   result.value_lower = below(witness.value_lower);
   result.value_upper = above(witness.value_upper);
+  if (const auto& slowing = witness.slowing) {
+    result.slowing = {ScalarTraits<double>::from_decimal(slowing->speed), slowing->change};
+  }
   if (witness.rate) {
     const RateId id = *witness.rate;
     result.kind = name(id.kind);

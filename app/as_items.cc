@@ -16,6 +16,7 @@ namespace taut {
 void add_stated(nlohmann::json& illustration, const Case& the_case) {
   illustration["units"] = to_json(the_case.units);
   illustration["document_fields"] = to_json(the_case.document_fields);
+  if (!the_case.problem.space.constraints.empty()) illustration["has_constraints"] = true;
   const LoadStatement load = load_statement(the_case);
   if (load.around_items) illustration["around_items"] = stated_json(*load.around_items);
   const AngleKind angles = the_case.problem.space.angles.kind;

@@ -102,6 +102,11 @@ class TableReader {
     if (!header_.time) {
       fail("got no column t, expected one with the time of each row, such as t[s]: the audit is of a move in time");
     }
+    if (header_.form == PathForm::kParameters && !problem_.space.constraints.empty()) {
+      fail(
+          "got columns of the case's parameters in a case with constraints, which imply another motion than these "
+          "follow, expected poses (px, py, pz and angles or a quaternion)");
+    }
     PathSummary summary(problem_, header_);
     for (PathRow row; file.next(row);) {
       if (rows_.empty()) column_hint_ = column_hint(PoseSampler(problem_), header_, row);

@@ -411,6 +411,12 @@ void read_contact(const JsonCursor& witness, Witness& result) {
   result.at_box = read_proof_at(witness.at("proof"), result.violation.at);
 }
 
+std::optional<Slowing> read_slowing(const JsonCursor& witness) {
+  if (!witness.contains("slowing")) return std::nullopt;
+  const JsonCursor slowing = witness.at("slowing");
+  return Slowing{decimal(slowing.at("speed")), static_cast<int>(slowing.at("change").integer(-1, 1))};
+}
+
 Witness read_witness(const JsonCursor& witness, const Path& path) {
   Witness result;
   PathWitness& violation = result.violation;
@@ -425,6 +431,7 @@ Witness read_witness(const JsonCursor& witness, const Path& path) {
     read_contact(witness, result);
     return result;
   }
+  violation.slowing = read_slowing(witness);
   if (rate) {
     violation.rate = RateId{*rate};
     if (is_of_winch(*rate)) violation.rate->cable = static_cast<int>(witness.at("cable").integer(1, kCables)) - 1;

@@ -229,6 +229,9 @@ json to_json(const Witness& witness) {
   result["limit"] = violation.limit;
   result["proof"] = checker::proof_to_json(witness.at_box);
   if (witness.loads) result["loads"] = to_json(*witness.loads);
+  if (const auto& slowing = violation.slowing) {
+    result["slowing"] = {{"change", slowing->change}, {"speed", slowing->speed}};
+  }
   if (violation.deviation) {
     checker::WitnessDeviation way;
     way.poses = witness.way_poses;

@@ -148,6 +148,7 @@ checker::Witness statement(const PathWitness& found, std::size_t k) {
   }
   result.cable = static_cast<std::size_t>(found.rate ? found.rate->cable : found.margin.cable);
   if (found.deviation) result.deviation = to_kernel(*found.deviation);
+  if (found.slowing) result.slowing = {exact(found.slowing->speed), found.slowing->change};
   return result;
 }
 
@@ -478,7 +479,7 @@ class Elaborator::Search {
     std::vector<Task> result;
     mpq_class at = begin;
     if (!path_.inner_poses.empty()) {
-      for (const checker::InnerPose& inner : path_.inner_poses[0]) {
+      for (const checker::InnerPose& inner : path_.inner_poses.at(k_)) {
         if (inner.s <= at || inner.s >= end) continue;
         result.push_back({at, inner.s});
         at = inner.s;

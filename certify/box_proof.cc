@@ -32,17 +32,17 @@ Interval outward(const MpInterval& x) {
 
 }  // namespace
 
-ProofModel<MpInterval> make_mp_proof_model(const Problem& problem) {
+ProofModel<MpInterval> make_mp_proof_model(const Problem& problem, const std::optional<Slowing>& slowing) {
   return {make_model<MpInterval>(problem),
           make_motion_model<MpInterval>(problem),
           make_tolerance_model<MpInterval>(problem),
           {},
           {},
           problem.bodies ? std::optional(make_body_model<MpInterval>(problem)) : std::nullopt,
-          problem.time ? std::optional<MovingModel<MpInterval>>(problem) : std::nullopt};
+          problem.time ? std::optional<MovingModel<MpInterval>>(std::in_place, problem, slowing) : std::nullopt};
 }
 
-ProofModel<Interval> make_proof_model(const Problem& problem) {
+ProofModel<Interval> make_proof_model(const Problem& problem, const std::optional<Slowing>& slowing) {
   ProofModel<Interval> result{{}, make_motion_model<Interval>(problem), std::nullopt, {}, {}, {}};
   Model<Interval>& model = result.model;
   const bool is_diagonal = has_diagonal_ellipsoid(problem.load);
@@ -52,7 +52,7 @@ ProofModel<Interval> make_proof_model(const Problem& problem) {
     if (is_diagonal) set_ellipsoid(problem.load, model);
     result.tolerance = make_tolerance_model<Interval>(problem);
     if (problem.bodies) result.bodies = make_body_model<Interval>(problem);
-    if (problem.time) result.moving.emplace(problem);
+    if (problem.time) result.moving.emplace(problem, slowing);
   });
   if (!is_bounded) throw InputError("robot, load: got a number beyond the range of binary64");
   if (is_diagonal) {

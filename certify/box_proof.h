@@ -48,10 +48,12 @@ struct ProofModel {
   std::optional<MovingModel<I>> moving = {};    ///< where it has limits in time
 };
 
-/// At working_precision(). @throws InputError where E can't be proved positive definite.
-[[nodiscard]] ProofModel<MpInterval> make_mp_proof_model(const Problem& problem);
+/// At working_precision(). @param slowing  of a move that is run so everywhere
+/// @throws InputError where E can't be proved positive definite.
+[[nodiscard]] ProofModel<MpInterval> make_mp_proof_model(const Problem& problem,
+                                                         const std::optional<Slowing>& slowing = {});
 /// In binary64 intervals. @throws InputError likewise.
-[[nodiscard]] ProofModel<Interval> make_proof_model(const Problem& problem);
+[[nodiscard]] ProofModel<Interval> make_proof_model(const Problem& problem, const std::optional<Slowing>& slowing = {});
 
 /// The commanded pose of the machine as typed, over a box. Conditions as for enclose_box.
 template <class I>

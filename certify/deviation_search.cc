@@ -2,8 +2,11 @@
 #include "certify/deviation_search.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <memory>
+
+#include "kinematics/statics.h"
 
 namespace taut {
 namespace {
@@ -26,20 +29,39 @@ std::optional<MpInterval> deviated_at_mid(const Prover& prover, const Segment& s
   const MotionEnclosure<MpInterval> commanded = undisturbed_motion(model, segment, {mid, mid}, MpInterval(0.0));
   if (commanded.status != MotionEnclosure<MpInterval>::Status::kKnown) return std::nullopt;
   const auto at_mid = [](const SlopeForm<MpInterval>& x) { return x.at_mid; };
-  MpInterval quantity = deviated_quantity(model.model, *prover.problem().tolerances, commanded.p_WP.unaryExpr(at_mid),
-                                          commanded.r_WP.unaryExpr(at_mid), deviation, margin);
+  std::optional<Moving<MpInterval>> moving;
+  if (segment.timing != nullptr && !(moving = model.moving->at(model.model, segment, mid))) return std::nullopt;
+  const auto inertia = [&](const Matrix3<MpInterval>& r_WP) { return model.moving->inertia(r_WP, moving->rates); };
+  using Inertia = std::function<Vector6<MpInterval>(const Matrix3<MpInterval>&)>;
+  MpInterval quantity =
+      deviated_quantity(model.model, *prover.problem().tolerances, commanded.p_WP.unaryExpr(at_mid),
+                        commanded.r_WP.unaryExpr(at_mid), deviation, margin, moving ? Inertia(inertia) : Inertia());
   if (Faults<MpInterval>::raised()) return std::nullopt;
   return quantity;
 }
 
+DeviationSearch::Place DeviationSearch::place(const DyadicBox& box) const {
+  Place result{prover_.sampler().rigid_pose(segment_, box.mid().approx()), prover_.sampler().model()};
+  if (segment_.timing == nullptr) return result;
+  const PrecisionLadder& ladder = prover_.ladder();
+  const std::size_t rung = rung_of(ladder);
+  const PrecisionScope precision(ladder.bits(rung));
+  const ProofModel<MpInterval>& model = ladder.multiprecision(rung);
+  const auto moving = model.moving->at(model.model, segment_, enclose<MpInterval>(box.mid()));
+  for (int k = 0; moving && k < 6; ++k) {
+    result.model.wrench(k) -= (lower_bound(moving->wrench(k)) + upper_bound(moving->wrench(k))) / 2;
+  }
+  return result;
+}
+
 DyadicBox DeviationSearch::weakest_box(MarginId margin) const {
-  const PoseSampler& sampler = prover_.sampler();
   DyadicBox weakest;
   double least = std::numeric_limits<double>::infinity();
   for (DyadicBox box{0, prover_.options().tolerance_depth}; box.upper() <= Dyadic{1, 0}; ++box.k) {
-    const Statics<double> statics = sampler.statics(sampler.rigid_pose(segment_, box.mid().approx()));
-    const double here = slack(sampler.model(), limited_quantity(statics, margin), margin);
-    if (statics.regular && here < least) {
+    const Place at = place(box);
+    const Statics<double> found = statics(at.model, at.pose.p, Matrix3<double>(at.pose.q.toRotationMatrix()));
+    const double here = slack(at.model, limited_quantity(found, margin), margin);
+    if (found.regular && here < least) {
       least = here;
       weakest = box;
     }
@@ -49,12 +71,12 @@ DyadicBox DeviationSearch::weakest_box(MarginId margin) const {
 
 /// Those of `margins` that the worst deviation within this share of the tolerances breaks, or for which it
 /// can't be followed.
-std::vector<DeviationSearch::Proposal> DeviationSearch::breaking(const RigidPose& pose,
+std::vector<DeviationSearch::Proposal> DeviationSearch::breaking(const Place& place,
                                                                  const std::vector<MarginId>& margins,
                                                                  double share) const {
   std::vector<Proposal> result;
   for (const MarginId margin : margins) {
-    auto worst = worst_deviation(*prover_.problem().tolerances, prover_.sampler().model(), pose, margin,
+    auto worst = worst_deviation(*prover_.problem().tolerances, place.model, place.pose, margin,
                                  prover_.is_length_controlled(segment_.law), share);
     if (worst) result.emplace_back(margin, *std::move(worst));
   }
@@ -88,14 +110,14 @@ SegmentWitness witness_of(const DyadicBox& box, MarginId margin, const Deviation
 
 std::optional<SegmentWitness> DeviationSearch::refute(const DyadicBox& box, MarginId margin) {
   if (has_failed_) return std::nullopt;
-  const RigidPose pose = prover_.sampler().rigid_pose(segment_, box.mid().approx());
-  std::vector<Proposal> proposals = breaking(pose, {margin}, 1);
+  const Place here = place(box);
+  std::vector<Proposal> proposals = breaking(here, {margin}, 1);
   if (proposals.empty()) {
     // `margin` is the weakest one undisturbed, but others may be more sensitive. They cost more, so they are tried only
     // where this is first asked, and at the segment's end.
     const bool is_last = box.upper() == Dyadic{1, 0};
     if (std::exchange(all_margins_tried_, true) && !is_last) return std::nullopt;
-    proposals = breaking(pose, every_margin(), 1);
+    proposals = breaking(here, every_margin(), 1);
     if (proposals.empty()) return std::nullopt;
   }
   const auto& [broken, proposed] = proposals.front();
@@ -104,7 +126,7 @@ std::optional<SegmentWitness> DeviationSearch::refute(const DyadicBox& box, Marg
     case Outcome::kHarmless: return std::nullopt;
     case Outcome::kNotFollowed: break;
   }
-  std::optional<SegmentWitness> witness = refute_by_smaller(box, pose);
+  std::optional<SegmentWitness> witness = refute_by_smaller(box, here);
   if (!witness) has_failed_ = true;
   return witness;
 }
@@ -112,14 +134,14 @@ std::optional<SegmentWitness> DeviationSearch::refute(const DyadicBox& box, Marg
 /// For a worst deviation that can't be followed, as on the way to a singular pose. Some limit breaks before that pose
 /// is reached: the share of the tolerances is halved until no limit breaks, then bisected, and taken a little larger,
 /// so that the violation can be proved.
-std::optional<SegmentWitness> DeviationSearch::refute_by_smaller(const DyadicBox& box, const RigidPose& pose) const {
+std::optional<SegmentWitness> DeviationSearch::refute_by_smaller(const DyadicBox& box, const Place& place) const {
   constexpr double kLeast = 0x1p-20;
   constexpr int kBisections = 8;
   constexpr double kMore = 1 + 0x1p-5;
   constexpr int kAttempts = 2;  // following a deviation by proof takes long
   std::vector<MarginId> margins = every_margin();
   const auto breaks = [&](double share) {
-    std::vector<Proposal> found = breaking(pose, margins, share);
+    std::vector<Proposal> found = breaking(place, margins, share);
     if (found.empty()) return false;
     margins.clear();
     for (const Proposal& proposal : found) margins.push_back(proposal.first);
@@ -133,7 +155,7 @@ std::optional<SegmentWitness> DeviationSearch::refute_by_smaller(const DyadicBox
     (breaks(share) ? most : none) = share;
   }
   int attempts = 0;
-  for (const Proposal& proposal : breaking(pose, margins, std::min(1.0, kMore * most))) {
+  for (const Proposal& proposal : breaking(place, margins, std::min(1.0, kMore * most))) {
     const auto& [broken, proposed] = proposal;
     if (!proposed.leads_to_pose || attempts == kAttempts) continue;
     ++attempts;

@@ -30,10 +30,16 @@ class DeviationSearch {
   using Proposal = std::pair<MarginId, ProposedDeviation>;
   enum class Outcome { kRefutes, kHarmless, kNotFollowed };
 
-  [[nodiscard]] std::vector<Proposal> breaking(const RigidPose& pose, const std::vector<MarginId>& margins,
+  /// The pose at the middle of a box, and the machine; of a move, with what inertia leaves of the load there.
+  struct Place {
+    RigidPose pose;
+    Model<double> model;
+  };
+  [[nodiscard]] Place place(const DyadicBox& box) const;
+  [[nodiscard]] std::vector<Proposal> breaking(const Place& place, const std::vector<MarginId>& margins,
                                                double share) const;
   [[nodiscard]] Outcome attempt(const DyadicBox& box, const Proposal& proposal) const;
-  [[nodiscard]] std::optional<SegmentWitness> refute_by_smaller(const DyadicBox& box, const RigidPose& pose) const;
+  [[nodiscard]] std::optional<SegmentWitness> refute_by_smaller(const DyadicBox& box, const Place& place) const;
 
   const Prover& prover_;
   const Segment& segment_;
@@ -41,7 +47,8 @@ class DeviationSearch {
   bool has_failed_ = false;  ///< none was found that can be followed to where it refutes: not sought again
 };
 
-/// Prover::quantity_at_mid() of a machine that deviates; nothing where that is not proved.
+/// Encloses what `margin` limits at the midpoint of a box, for a machine that deviates, which in a move has the
+/// velocities and accelerations that are commanded; nothing where that is not proved.
 [[nodiscard]] std::optional<MpInterval> deviated_at_mid(const Prover& prover, const Segment& segment,
                                                         const DyadicBox& box, MarginId margin,
                                                         const Deviation& deviation);

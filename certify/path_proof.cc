@@ -45,22 +45,19 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Seg
     witness.depth_m = "0";  // certificates state more where the kernel shows more
     return witness;
   }
-  const DyadicBox& box = found.box;
+  witness.slowing = found.slowing;
+  const MpInterval value = prover.witnessed_quantity(segment, found);
   if (found.rate) {
     witness.rate = found.rate;
     witness.limit = limit_of(prover.problem().time.value(), *found.rate);
-    const MpInterval value = prover.quantity_at_mid(segment, box, *found.rate);
     witness.value_lower = value.lower().to_decimal(kWitnessDigits, MPFR_RNDD);  // certificates state the kernel's
     witness.value_upper = value.upper().to_decimal(kWitnessDigits, MPFR_RNDU);
     return witness;
   }
   const MarginId margin = found.margin;
-  const auto& deviation = found.deviation;
   witness.margin = margin;
   witness.limit = limit_text(prover.problem(), margin);
-  witness.deviation = deviation;
-  const MpInterval value = deviation ? prover.quantity_at_mid(segment, box, margin, *deviation)
-                                     : prover.quantity_at_mid(segment, box, margin);
+  witness.deviation = found.deviation;
   const Decimal limit = Decimal::parse(witness.limit);
   const bool is_lower = margin.kind == MarginKind::kTensionMin || margin.kind == MarginKind::kLengthMin;
   for (int digits = kWitnessDigits; digits <= kMostWitnessDigits; digits *= 2) {

@@ -31,6 +31,7 @@ struct PathWitness {
   DecimalText limit;                        ///< the limit it violates; unless singular, or of a rate
   std::optional<RateId> rate = {};          ///< of a move: what is proved too fast; then `margin` means nothing
   std::shared_ptr<const Deviation> deviation = nullptr;  ///< within the tolerances; null: of the undisturbed machine
+  std::optional<Slowing> slowing = {};                   ///< how a move that may be slowed down is run there, if it is
 };
 
 struct Margins {

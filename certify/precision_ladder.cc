@@ -15,8 +15,12 @@ std::vector<mpfr_prec_t> bits_of_rungs(mpfr_prec_t max_bits) {
 
 }  // namespace
 
-PrecisionLadder::PrecisionLadder(const Problem& problem, mpfr_prec_t max_bits)
-    : problem_(problem), fast_(make_proof_model(problem)), bits_(bits_of_rungs(max_bits)), fine_(bits_.size()) {}
+PrecisionLadder::PrecisionLadder(const Problem& problem, mpfr_prec_t max_bits, const std::optional<Slowing>& slowing)
+    : problem_(problem),
+      slowing_(slowing),
+      fast_(make_proof_model(problem, slowing)),
+      bits_(bits_of_rungs(max_bits)),
+      fine_(bits_.size()) {}
 
 int PrecisionLadder::deepest(std::size_t rung) const {
   constexpr int kBinary64Depth = 48;
@@ -27,7 +31,7 @@ const ProofModel<MpInterval>& PrecisionLadder::multiprecision(std::size_t rung) 
   Rung& fine = fine_.at(rung - 1);
   std::call_once(fine.made, [&] {
     const PrecisionScope precision(bits(rung));
-    fine.model = std::make_unique<const ProofModel<MpInterval>>(make_mp_proof_model(problem_));
+    fine.model = std::make_unique<const ProofModel<MpInterval>>(make_mp_proof_model(problem_, slowing_));
   });
   return *fine.model;
 }

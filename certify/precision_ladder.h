@@ -15,9 +15,9 @@ namespace taut {
 /// Immutable from outside; may be shared between threads.
 class PrecisionLadder {
  public:
-  /// @param max_bits  of the last rung, at least 128
+  /// @param max_bits  of the last rung, at least 128 @param slowing  of a move that is run so everywhere
   /// @throws InputError if the problem can't be enclosed (E not positive definite).
-  PrecisionLadder(const Problem& problem, mpfr_prec_t max_bits);
+  PrecisionLadder(const Problem& problem, mpfr_prec_t max_bits, const std::optional<Slowing>& slowing = {});
 
   /// The number of the last rung.
   [[nodiscard]] std::size_t last() const { return fine_.size(); }
@@ -46,6 +46,7 @@ class PrecisionLadder {
   };
 
   Problem problem_;
+  std::optional<Slowing> slowing_;
   ProofModel<Interval> fast_;
   std::vector<mpfr_prec_t> bits_;
   mutable std::vector<Rung> fine_;

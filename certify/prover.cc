@@ -12,11 +12,17 @@
 
 #include "certify/reference_path.h"
 #include "certify/segment_walk.h"
+#include "certify/severity.h"
 
 namespace taut {
 
-Prover::Prover(const Problem& problem, ProofOptions options)
-    : problem_(problem), options_(options), ladder_(problem, options.max_bits) {
+Prover::Prover(const Problem& problem, ProofOptions options) : Prover(problem, options, std::nullopt) {}
+
+Prover::Prover(const Problem& problem, ProofOptions options, const std::optional<Slowing>& slowing)
+    : problem_(problem),
+      options_(options),
+      is_slowed_(slowing.has_value()),
+      ladder_(problem, options.max_bits, slowing) {
   if (!problem.space.constraints.empty()) constraints_.emplace(problem);
   if (problem.bodies) bodies_.emplace(problem);
 }
@@ -182,10 +188,6 @@ SegmentProof to_proof(SegmentSurvey survey) {
 
 namespace {
 
-bool may_stop(const Problem& problem, const Segment& segment) {
-  return segment.timing != nullptr && problem.time && problem.time->stopping_time_s;
-}
-
 /// The problem of a move that is run as its law says.
 Problem by_law(Problem problem) {
   problem.time->stopping_time_s.reset();
@@ -194,16 +196,32 @@ Problem by_law(Problem problem) {
 
 }  // namespace
 
+bool Prover::may_stop(const Segment& segment) const {
+  return segment.timing != nullptr && problem_.time && problem_.time->stopping_time_s && !is_slowed_;
+}
+
+/// What refutes the law, or a move that is slowed down in one way, refutes the one that may be.
+std::optional<SegmentProof> Prover::refute_by_slowing(const Segment& segment, double clearance,
+                                                      const std::stop_token& stop) const {
+  SegmentProof at_full_speed = Prover(by_law(problem_), options_).prove(segment, clearance, stop);
+  if (at_full_speed.verdict == Verdict::kRefuted) return at_full_speed;
+  for (const Slowing& slowing : extreme_slowings()) {
+    SegmentProof slowed = Prover(problem_, options_, slowing).prove(segment, clearance, stop);
+    if (slowed.verdict != Verdict::kRefuted) continue;
+    SegmentWitness& witness = *slowed.witness;
+    const bool is_of_pose = !witness.rate && (witness.singular || witness.contact || is_length(witness.margin));
+    if (!is_of_pose) witness.slowing = slowing;
+    return slowed;
+  }
+  return std::nullopt;
+}
+
 SegmentProof Prover::prove(const Segment& segment, double clearance, const std::stop_token& stop, ProofAim aim) const {
   if (!is_admissible(segment)) return to_proof(open_survey(segment.law, range_violation(segment)));
   SegmentWalk walk(*this, segment, clearance, SegmentWalk::Extent::kToFirstFailure, stop, aim);
   SegmentProof proof = to_proof(walk.run());
   if (proof.verdict != Verdict::kUndecided || aim == ProofAim::kProve) return proof;
-  if (may_stop(problem_, segment)) {
-    // What refutes the law refutes the move that may be slowed down, too.
-    SegmentProof at_full_speed = Prover(by_law(problem_), options_).prove(segment, clearance, stop);
-    return at_full_speed.verdict == Verdict::kRefuted ? at_full_speed : proof;
-  }
+  if (may_stop(segment)) return refute_by_slowing(segment, clearance, stop).value_or(std::move(proof));
   proof.witness = walk.refute_elsewhere();
   if (proof.witness) {
     proof.verdict = Verdict::kRefuted;
@@ -218,15 +236,20 @@ SegmentSurvey Prover::survey(const Segment& segment, const std::stop_token& stop
   return SegmentWalk(*this, segment, 0, SegmentWalk::Extent::kWhole, stop).run();
 }
 
-MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
-                                   const Deviation& deviation) const {
-  std::optional<MpInterval> quantity = deviated_at_mid(*this, segment, box, margin, deviation);
+MpInterval Prover::witnessed_quantity(const Segment& segment, const SegmentWitness& witness) const {
+  if (may_stop(segment)) {
+    const Prover run =
+        witness.slowing ? Prover(problem_, options_, witness.slowing) : Prover(by_law(problem_), options_);
+    return run.witnessed_quantity(segment, witness);
+  }
+  if (witness.rate) return rate_at_mid(segment, witness.box, *witness.rate);
+  if (!witness.deviation) return margin_at_mid(segment, witness.box, witness.margin);
+  std::optional<MpInterval> quantity = deviated_at_mid(*this, segment, witness.box, witness.margin, *witness.deviation);
   if (!quantity) throw std::logic_error("a deviation has no enclosure");
   return *std::move(quantity);
 }
 
-MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {
-  if (may_stop(problem_, segment)) return Prover(by_law(problem_), options_).quantity_at_mid(segment, box, margin);
+MpInterval Prover::margin_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {
   const auto n = static_cast<std::size_t>(margin.cable);
   std::optional<MpInterval> quantity;
   for (std::size_t rung = 1; rung <= ladder_.last(); ++rung) {
@@ -248,8 +271,7 @@ MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box,
   return *quantity;
 }
 
-MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, RateId rate) const {
-  if (may_stop(problem_, segment)) return Prover(by_law(problem_), options_).quantity_at_mid(segment, box, rate);
+MpInterval Prover::rate_at_mid(const Segment& segment, const DyadicBox& box, RateId rate) const {
   std::optional<MpInterval> quantity;
   for (std::size_t rung = 1; rung <= ladder_.last(); ++rung) {
     const PrecisionScope precision(ladder_.bits(rung));

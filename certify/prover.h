@@ -74,16 +74,10 @@ class Prover {
   /// One box, at the cheapest rung that decides it. Bodies are not judged.
   [[nodiscard]] BoxVerdict judge(const Segment& segment, const DyadicBox& box) const;
 
-  /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) at the midpoint of a box, at the least precision at
-  /// which the margin is seen not to be positive, else at the highest that works.
-  /// @throws std::logic_error if there is none.
-  [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const;
-  /// The same, of a machine that deviates.
-  [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
-                                           const Deviation& deviation) const;
-
-  /// The same of the magnitude of a rate of a move, for all times at which it is there.
-  [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, RateId rate) const;
+  /// Encloses what a witness of a limit is about, at the midpoint of its box: f0 − v, f0 + v [N], d [m] or the magnitude
+  /// of a rate of a move [SI], for all times at which it is there. At the least precision at which the limit is seen to
+  /// be broken, else at the highest that works. @throws std::logic_error if there is none.
+  [[nodiscard]] MpInterval witnessed_quantity(const Segment& segment, const SegmentWitness& witness) const;
 
   /// Of a segment that is not admissible because of a range: ": px is 1.7, its range is from -1.5 to 1.1 (SI: m, rad)".
   /// Empty where there is no such parameter.
@@ -105,8 +99,19 @@ class Prover {
   [[nodiscard]] const BodySampler* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
 
  private:
+  /// Of moves that are run so everywhere; what it proves of them is not what prove() claims.
+  Prover(const Problem& problem, ProofOptions options, const std::optional<Slowing>& slowing);
+
+  /// Whether it is a move of which more is claimed than that it can be run as its law says.
+  [[nodiscard]] bool may_stop(const Segment& segment) const;
+  [[nodiscard]] std::optional<SegmentProof> refute_by_slowing(const Segment& segment, double clearance,
+                                                              const std::stop_token& stop) const;
+  [[nodiscard]] MpInterval margin_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const;
+  [[nodiscard]] MpInterval rate_at_mid(const Segment& segment, const DyadicBox& box, RateId rate) const;
+
   Problem problem_;
   ProofOptions options_;
+  bool is_slowed_;  ///< a move that may be slowed down is so, everywhere
   std::optional<ConstraintFunctions> constraints_;
   PrecisionLadder ladder_;
   mutable std::once_flag sampler_made_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <stdexcept>
 
 #include "base/input_error.h"
 #include "certify/arithmetic/interval.h"
@@ -65,6 +66,7 @@ struct RowDistances::Enclosures {
 };
 
 RowDistances::RowDistances(const Problem& problem, const Path& path) : path_(path) {
+  if (!problem.space.constraints.empty()) throw std::logic_error("rows of a motion that constraints imply");
   const TimeLaw& law = path.timing.value();
   bool is_even = !has_poses(path.interpolation) && law.pieces() == path.segments() && law.step_s > 0;
   for (std::size_t i = 0; i < law.controls.size(); ++i) is_even &= law.controls[i] == static_cast<double>(i) - 1;

@@ -32,7 +32,8 @@ class RowDistances {
  public:
   /// @param path  of `problem`'s parameters: straight segments or a spline, with the law σ(t) = t/h, so that a law's
   ///              control value i is i − 1; outlives this
-  /// @throws InputError where the law is another one.
+  /// @throws InputError where the law is another one. @throws std::logic_error where the space has constraints, which
+  /// imply another motion than that of the parameters alone.
   RowDistances(const Problem& problem, const Path& path);
   ~RowDistances();
   RowDistances(const RowDistances&) = delete;

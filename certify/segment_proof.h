@@ -8,6 +8,7 @@
 
 #include "certify/arithmetic/dyadic.h"
 #include "certify/bodies/body_gaps.h"
+#include "certify/motion/slowing.h"
 #include "certify/tolerance/deviation.h"
 #include "certify/undecided.h"
 #include "kinematics/margin.h"
@@ -31,7 +32,8 @@ struct SegmentWitness {
   DyadicBox box;
   std::shared_ptr<const Deviation> deviation = nullptr;  ///< of the machine whose margin it is; null: undisturbed
   std::optional<PairContact> contact = {};
-  std::optional<RateId> rate = {};  ///< that is at its limit, or beyond it, at the midpoint of `box`
+  std::optional<RateId> rate = {};      ///< that is at its limit, or beyond it, at the midpoint of `box`
+  std::optional<Slowing> slowing = {};  ///< how a move that may be slowed down is run there; none: at full speed
 };
 
 struct SegmentProof {

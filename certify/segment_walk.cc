@@ -207,7 +207,6 @@ bool SegmentWalk::prove_in_strides() {
 std::optional<SegmentWitness> SegmentWalk::refute_elsewhere() {
   // A witness behind an inner pose is about the path only if what leads there is proved.
   if (last_verdict_.kind != BoxVerdict::Kind::kTolerance || !segment_.inner_poses.empty()) return std::nullopt;
-  if (segment_.timing != nullptr) return std::nullopt;
   return deviations_.refute(deviations_.weakest_box(last_verdict_.worst), last_verdict_.worst);
 }
 
@@ -276,8 +275,9 @@ SegmentWalk::Step SegmentWalk::examine_deviations(const Task& task, const BoxVer
     return steps_are_few && !is_proved_inside(task) ? refine : Step{Step::Kind::kSplit, verdict};
   }
   const Step give_up{Step::Kind::kGiveUp, verdict, {}, at(Undecided::kTolerances, verdict.worst)};
-  // The search for deviations that refute knows no inertia.
-  if (aim_ == ProofAim::kProve || segment_.timing != nullptr) return steps_are_few ? refine : give_up;
+  // In a move the search takes longer than more steps do.
+  if (segment_.timing != nullptr && steps_are_few) return refine;
+  if (aim_ == ProofAim::kProve) return steps_are_few ? refine : give_up;
   // Once a deviation refutes the segment, only its last box is searched again: a survey states the first and the last
   // violation of a stretch, and each search is costly.
   if (deviation_refutes_ && task.box.upper() != Dyadic{1, 0}) return give_up;

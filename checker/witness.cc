@@ -50,13 +50,23 @@ Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Pa
   const Box there = at_place(witness.at, witness.at_box);
   const Geometry stated = commanded_geometry(machine, problem, path, witness.at.segment, there);
   if (path.timing) {
-    if (witness.loads || witness.deviation) throw Rejected("the witness of a move states loads or a deviation");
+    if (witness.loads) throw Rejected("the witness of a move states loads");
     const std::optional<RateKind> rate = rate_of(witness.kind);
     if (rate && !problem.time.value().of(*rate, witness.cable)) {
       throw Rejected("the witness is of a limit that the problem does not state");
     }
+    const std::size_t k = witness.at.segment;
     // That the move may be run slower as well does not help it.
-    return quantity_of_move(machine, stated, moving(machine, problem, path, witness.at.segment, there), witness);
+    const std::optional<Slowing>& slowing = witness.slowing;
+    if (!witness.deviation) {
+      return quantity_of_move(machine, stated, moving(machine, problem, path, k, there, slowing), witness);
+    }
+    if (rate) throw Rejected("the witness of a limit in time states a deviation");
+    const Deviant deviates = deviant(machine, problem, stated, *witness.deviation);
+    const Vector6<Ball> inertia = inertia_of_deviant(machine, problem, path, k, there, slowing, deviates.geometry.pose);
+    Vector6<Ball> beside = deviates.machine.wrench;
+    for (std::size_t c = 0; c < 6; ++c) beside[c] -= inertia[c];
+    return quantity(deviates.machine, deviates.geometry, witness, beside);
   }
   if (rate_of(witness.kind)) throw Rejected("the witness is of a limit in time, and the path has no law");
   const auto quantity_at_rest = [&](const Machine& of, const Geometry& geometry) {

@@ -9,8 +9,9 @@
 //
 // In a move the quantity is enclosed for all times at which the move is at this place, which may be many where it rests
 // there, and tensions are those of w - w_in (kernel/moving.h). The enclosure holds w_in for every mass and centre of
-// gravity that the load allows, so it also holds the tension of the one load that is worst. A limit in time is broken
-// where the rate, or a winch's power, is not below it.
+// gravity that the load allows, so it also holds the tension of the one load that is worst. A machine that deviates has
+// the velocities and accelerations that path and law command. A limit in time is broken where the rate, or a winch's
+// power, is not below it. Where the move may be slowed down, a witness may state how it is run there.
 #pragma once
 
 #include "checker/format/witness.h"
@@ -27,7 +28,7 @@ namespace taut::checker {
 /// time, the magnitude of the rate or the power (the largest tension times the speed), in SI units. @pre the witness is
 /// of a limit, which in time the problem states, and a path with a law has one (require_time_law)
 /// @throws Rejected where the deviation is not within the tolerances, or a load not in its item, or where a move's
-/// witness has either; Undefined where the quantity can't be enclosed.
+/// witness has loads; Undefined where the quantity can't be enclosed.
 [[nodiscard]] Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Path& path,
                                       const Witness& witness);
 

@@ -178,7 +178,7 @@ void add_formal_options(CLI::App& command, FormalArguments& arguments) {
       ->required();
   command.add_option("--out", arguments.out, "file to write (default: beside the certificate, with its name and .v)");
   command.add_flag("--fast", arguments.fast,
-                   "let Coq compute with the processor's floating point, which it then trusts: 0.2 s, not 8 s");
+                   "let Coq compute with the processor's floating point, which it then trusts; much faster");
   command.add_flag("--no-coq", arguments.no_coq, "write the file, and do not run coqc");
   command.add_option("--boxes", arguments.boxes, "also write the boxes alone, which taut-verify reads (formal/build)");
   command.add_option("--library", arguments.library, "folder with the compiled checker in Coq (formal/build)");

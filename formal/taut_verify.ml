@@ -5,7 +5,8 @@
    are read from the certificate, and nothing but numbers of which nothing is assumed from BOXES. What is not proved in
    Coq, and has to be believed, is this file, the library Yojson, Zarith and GMP, and OCaml.
 
-   A key that is not known is refused wherever a meaning could hang on it: in the problem and in the path.
+   A key that is not known is refused wherever a meaning could hang on it: in the problem and in the path. The words of
+   the claim, digests and signatures are not looked at.
    docs/certificate-format.md says what they mean, Statement.v what is proved of them. *)
 
 module Int = Z  (* Check has a Z of its own *)
@@ -227,14 +228,27 @@ let pair place json = match elements place ~count:2 json with
   | [ a; b ] -> (number place a, number place b)
   | _ -> assert false
 
+let not_above x y = Int.leq (Int.mul x.qnum y.qden) (Int.mul y.qnum x.qden)
+
+(* An empty set would be a load of which everything is true. *)
+let ordered place json =
+  let a, b = pair place json in
+  if not (not_above a b) then refuse place "an interval that ends before it begins";
+  (a, b)
+
+let size place json =
+  let x = number place json in
+  if Int.sign x.qnum < 0 then refuse place "a size below 0";
+  x
+
 let set_of place l = match List.filter (fun (k, _) -> List.mem k [ "ball"; "disc"; "segment" ]) l with
-  | [ ("ball", b) ] -> Ball (number place (get "radius" (fields place [ "radius" ] b)))
+  | [ ("ball", b) ] -> Ball (size place (get "radius" (fields place [ "radius" ] b)))
   | [ ("disc", d) ] ->
       let f = fields place [ "radius"; "normal" ] d in
-      Disc (number place (get "radius" f), vec place (get "normal" f))
+      Disc (size place (get "radius" f), vec place (get "normal" f))
   | [ ("segment", s) ] ->
       let f = fields place [ "direction"; "range" ] s in
-      let lower, upper = pair place (get "range" f) in
+      let lower, upper = ordered place (get "range" f) in
       Along (vec place (get "direction" f), lower, upper)
   | _ -> refuse place "expected one set of vectors"
 
@@ -249,8 +263,8 @@ let item gravity json =
   match List.filter (fun (k, _) -> k <> "name") (entries place json) with
   | [ ("weight", w) ] ->
       let f = fields place [ "mass_kg"; "at_m"; "at_tolerance_m" ] w in
-      let lower, upper = pair place (get "mass_kg" f) in
-      Weight (lower, upper, gravity, vec place (get "at_m" f), number place (get "at_tolerance_m" f))
+      let lower, upper = ordered place (get "mass_kg" f) in
+      Weight (lower, upper, gravity, vec place (get "at_m" f), size place (get "at_tolerance_m" f))
   | [ ("force", w) ] ->
       let f = fields place [ "axes"; "at_m" ] ~optional:sets w in
       Force (set_of place f, axes_of place f, vec place (get "at_m" f))
@@ -343,6 +357,8 @@ let box json =
 let certificate json boxes =
   let all = entries "certificate" json in
   if find "format" all <> Some (`String "taut-certificate") then refuse "certificate" "not a certificate of taut";
+  if find "version" all <> Some (`Int 4) then refuse "certificate" "a version that Coq is not told: expected 4";
+  if find "verdict" all <> Some (`String "proved") then refuse "certificate" "expected the verdict 'proved'";
   let f = fields "problem" [ "robot"; "load"; "space"; "query"; "name"; "tolerances" ] (get "problem" all) in
   if not (is_empty (get "tolerances" f)) then refuse "problem" "tolerances, which Coq is not told";
   let parameters, pose_position, pose_angles = space (get "space" f) in

@@ -88,12 +88,13 @@ std::string head_text(const Head& head, const MoveRows& rows, std::string_view w
       "# Rows: {}, every {:.6g} s ({:.6g} Hz), the last one where the move ends, at {} s.\n"
       "{}"
       "# Units: {}\n"
-      "# What is proved is the move: the path by its law through the waypoints of path.csv, and the time law in the "
+      "# What is proved is the move: the path by its law through the waypoints of {}, and the time law in the "
       "certificate.\n# These rows are on it but for rounding.\n"
       "{}"
       "# Certificate of the move: certificate.json, SHA-256 {}\n",
       kMoveTableBegin, what, sanitize(head.name), rows.poses.size(), 1 / head.rate_Hz, head.rate_Hz,
-      rows.poses.back()[0], head.legs, units, more, head.sha256);
+      rows.poses.back()[0], head.legs, units, head.legs.empty() ? "path.csv" : "the path.csv in each leg's folder",
+      more, head.sha256);
 }
 
 MoveTables tables_of(const Head& head, const Problem& problem, const MoveRows& rows) {

@@ -166,6 +166,9 @@ std::string PathSummary::text() const {
         "long way round, as the numbers say\n",
         jumps_, jumps_ == 1 ? "" : "s", first_jump_line_);
   }
+  if (header_.form != PathForm::kParameters && sampler_.constraints()) {
+    text += "  the case's constraints are NOT asked of these poses: nothing is said of how far off them they are\n";
+  }
   return text;
 }
 

@@ -199,6 +199,8 @@ py::dict witness_dict(const taut::Witness& witness) {
   dict["value"] = of_limit(std::make_pair(witness.value_lower, witness.value_upper));
   dict["limit"] = of_limit(witness.limit);
   dict["deviates"] = witness.deviates;
+  const auto& slowing = witness.slowing;
+  dict["slowing"] = slowing ? py::object(py::make_tuple(slowing->speed_share, slowing->change)) : py::none();
   dict["bodies"] = contact ? py::object(py::make_tuple(witness.bodies[0], witness.bodies[1])) : py::none();
   dict["depth_m"] = contact ? py::cast(witness.depth_m) : py::none();
   return dict;

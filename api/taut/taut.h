@@ -218,6 +218,11 @@ struct Place {
 
 /// A proved violation.
 struct Witness {
+  /// How a move that may be slowed down is run there.
+  struct Slowing {
+    double speed_share = 1;  ///< between 0 and 1, of its speed
+    int change = 0;          ///< -1: braked as hard as the case's stopping time allows; 1: speeding up as fast
+  };
   /// "tension_min", "tension_max", "length_min", "length_max", "singular" or "contact"; of a move also what is too
   /// fast,
   /// "winch_speed", "winch_acceleration", "winch_power", "load_speed", "load_acceleration", "load_angular_speed" or
@@ -230,6 +235,7 @@ struct Witness {
   double value_upper = 0;
   double limit = 0;
   bool deviates = false;  ///< the machine is not the stated one, but within the case's tolerances
+  std::optional<Slowing> slowing;
   /// "contact": two bodies that are nearer than their clearance, by at least so much; then cable, value and limit are
   /// empty. Empty else.
   std::array<std::string, 2> bodies;

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "kinematics/time_law.h"
 
@@ -34,36 +36,45 @@ struct TimeCover {
 
 namespace law_range_detail {
 
-/// A quadratic polynomial over an interval of the given width, from its values at both ends and its slope at the first:
-/// with β = q(a) + q'(a) (b − a)/2 each q(x) is a mean of q(a), β and q(b), whose weights (1−y)², 2y(1−y) and y² are
-/// not negative, for y = (x − a)/(b − a).
+/// A quadratic polynomial on [0, 1] as a mean of three numbers, with the weights (1−u)², 2u(1−u) and u² (Bézier).
 template <class I>
-I over_interval(const I& at_begin, const I& slope_at_begin, const I& at_end, const I& width) {
-  return hull(hull(at_begin, at_end), at_begin + slope_at_begin * width / I(2.0));
+using Quadratic = std::array<I, 3>;
+
+/// Its polar form: linear in x and in y, symmetric, and the polynomial itself where x = y. Over [a, b] the polynomial is
+/// a mean of its values at (a, a), (a, b) and (b, b), likewise.
+template <class I>
+I polar(const Quadratic<I>& q, const I& x, const I& y) {
+  const I one(1.0), x1 = one - x, y1 = one - y;
+  return q[0] * (x1 * y1) + q[1] * (x * y1 + y * x1) + q[2] * (x * y);
 }
 
-/// The derivatives by u of a piece at u.
+template <class I>
+I over_interval(const Quadratic<I>& q, double from, double to) {
+  if (from == 0 && to == 1) return hull(hull(q[0], q[2]), q[1]);
+  const I a(from), b(to);
+  return hull(hull(polar(q, a, a), polar(q, b, b)), polar(q, a, b));
+}
+
+/// σ' and σ'' on a piece, by u = t/h − k; σ'' is linear.
 template <class I>
 struct PieceRates {
-  I first, second, third;
-  PieceRates(const Polynomial<I>& x, const I& u)
-      : first(x.slope(u)), second(x.c[2] + x.c[2] + u * (I(6.0) * x.c[3])), third(I(6.0) * x.c[3]) {}
+  Quadratic<I> first, second;
+  PieceRates(const TimeLaw& law, std::size_t k) {
+    const I half(0.5), c0(law.controls[k]), c1(law.controls[k + 1]), c2(law.controls[k + 2]), c3(law.controls[k + 3]);
+    const I step = c2 - c1, before = c1 - c0, after = c3 - c2;
+    first = {half * (before + step), step, half * (step + after)};
+    const I begin = step - before, end = after - step;
+    second = {begin, half * (begin + end), end};
+  }
 };
 
-/// σ' and σ'' by u, for u in [from, to].
-template <class I>
-LawRange<I> over_part(const Polynomial<I>& x, double from, double to) {
-  const PieceRates<I> begin(x, I(from)), end(x, I(to));
-  return {over_interval<I>(begin.first, begin.second, end.first, I(to) - I(from)), hull(begin.second, end.second)};
-}
-
-/// f(x, from, to) for the parts of all pieces at these times, joined.
+/// f(piece, from, to) for the parts of all pieces at these times, joined.
 template <class I, class F>
 auto over_times(const TimeLaw& law, const TimeCover& times, F f, auto join) {
   const auto [first, last, u1, u2] = times;
-  auto result = f(law_polynomial<I>(law, first), u1, first == last ? u2 : 1);
+  auto result = f(PieceRates<I>(law, first), u1, first == last ? u2 : 1);
   for (std::size_t k = first + 1; k <= last; ++k) {
-    result = join(result, f(law_polynomial<I>(law, k), 0.0, k == last ? u2 : 1));
+    result = join(result, f(PieceRates<I>(law, k), 0.0, k == last ? u2 : 1));
   }
   return result;
 }
@@ -93,7 +104,8 @@ template <class I>
   const double a = lower_bound(s), b = upper_bound(s);
   const std::size_t n = law.pieces();
   const auto at_knot = [&](std::size_t k) {
-    return k < n ? law_polynomial<I>(law, k).at(I(0.0)) : law_polynomial<I>(law, n - 1).at(I(1.0));
+    const std::vector<double>& c = law.controls;
+    return (I(c[k]) + I(4.0) * I(c[k + 1]) + I(c[k + 2])) / I(6.0);
   };
   TimeCover cover;
   // Knot `first` is before a, or 0; knot `last` + 1 is behind b, or n.
@@ -118,7 +130,11 @@ template <class I>
 template <class I>
 [[nodiscard]] LawRange<I> law_range(const TimeLaw& law, const TimeCover& times) {
   const LawRange<I> by_u = law_range_detail::over_times<I>(
-      law, times, [](const auto&... part) { return law_range_detail::over_part<I>(part...); },
+      law, times,
+      [](const law_range_detail::PieceRates<I>& x, double from, double to) {
+        return LawRange<I>{law_range_detail::over_interval(x.first, from, to),
+                           law_range_detail::over_interval(x.second, from, to)};
+      },
       [](const LawRange<I>& a, const LawRange<I>& b) {
         return LawRange<I>{hull(a.rate, b.rate), hull(a.acceleration, b.acceleration)};
       });
@@ -133,10 +149,10 @@ template <class I>
   const I share = v * I(law.step_s);
   const I by_u = law_range_detail::over_times<I>(
       law, times,
-      [&](const Polynomial<I>& x, double from, double to) {
-        const law_range_detail::PieceRates<I> a(x, I(from)), b(x, I(to));
-        return law_range_detail::over_interval<I>(a.second + share * a.first, a.third + share * a.second,
-                                                  b.second + share * b.first, I(to) - I(from));
+      [&](const law_range_detail::PieceRates<I>& x, double from, double to) {
+        law_range_detail::Quadratic<I> sum;
+        for (std::size_t j = 0; j < 3; ++j) sum[j] = x.second[j] + share * x.first[j];
+        return law_range_detail::over_interval(sum, from, to);
       },
       [](const I& a, const I& b) { return hull(a, b); });
   return by_u * sqr(I(1.0) / I(law.step_s));

@@ -7,13 +7,22 @@
 #include "base/input_error.h"
 
 namespace taut {
+namespace {
+
+bool is_speed(RateKind kind) {
+  return kind == RateKind::kWinchSpeed || kind == RateKind::kLoadSpeed || kind == RateKind::kLoadAngularSpeed;
+}
+
+}  // namespace
 
 template <class I>
-MovingModel<I>::MovingModel(const Problem& problem) : rates_(problem), bodies_(make_moving_bodies<I>(problem.load)) {
+MovingModel<I>::MovingModel(const Problem& problem, const std::optional<Slowing>& slowing)
+    : rates_(problem), bodies_(make_moving_bodies<I>(problem.load)) {
   if (bodies_.empty()) throw InputError("time: got a load without a mass, expected items of which one has some");
   const TimeText& text = problem.time.value();
   const auto add = [&](RateId id, const TimeText::Limit& limit) {
     std::vector<Limit>& limits = id.kind == RateKind::kWinchPower ? powers_ : limits_;
+    if (slowing && is_speed(id.kind)) return;
     if (limit) limits.push_back({id, evaluate_constant<I>(*limit)});
   };
   for (int cable = 0; cable < static_cast<int>(kCables); ++cable) {
@@ -23,6 +32,10 @@ MovingModel<I>::MovingModel(const Problem& problem) : rates_(problem), bodies_(m
     add({RateKind::kWinchPower, cable}, text.winch_power_W[i]);
   }
   if (text.stopping_time_s) slowing_ = I(1.0) / evaluate_constant<I>(*text.stopping_time_s);
+  if (slowing) {
+    pace_ = {ScalarTraits<I>::from_decimal(slowing->speed), I(static_cast<double>(slowing->change)) * slowing_.value()};
+    slowing_.reset();
+  }
   add({RateKind::kLoadSpeed}, text.load_speed_m_s);
   add({RateKind::kLoadAcceleration}, text.load_acceleration_m_s2);
   add({RateKind::kLoadAngularSpeed}, text.load_angular_speed_rad_s);
@@ -36,10 +49,6 @@ template <class I>
 LawRange<I> slowed(const LawRange<I>& law, const I& slowing) {
   const I share = hull(I(0.0), I(1.0));
   return {law.rate * share, law.acceleration * share + law.rate * hull(-slowing, slowing)};
-}
-
-bool is_speed(RateKind kind) {
-  return kind == RateKind::kWinchSpeed || kind == RateKind::kLoadSpeed || kind == RateKind::kLoadAngularSpeed;
 }
 
 /// ± x.
@@ -204,12 +213,20 @@ std::optional<typename MovingModel<I>::Part> MovingModel<I>::part_of(const Model
   const std::optional<PathRates<I>> path = rates_.over(model, segment, range);
   if (!path) return std::nullopt;
   const TimeCover times = time_cover(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
-  return Part{model, segment, times, range, *path, law_range<I>(*segment.timing, times), speeds};
+  return Part{model, segment, times, range, *path, law_over(*segment.timing, times), speeds};
+}
+
+template <class I>
+LawRange<I> MovingModel<I>::law_over(const TimeLaw& law, const TimeCover& times) const {
+  const LawRange<I> at_full_speed = law_range<I>(law, times);
+  if (!pace_) return at_full_speed;
+  const auto& [rate, acceleration] = at_full_speed;
+  return {pace_->speed * rate, sqr(pace_->speed) * acceleration + pace_->change * rate};
 }
 
 /// Whether limits are kept at all of these times at which the move is in `whole.range`. `sizes` grow by what is found.
 template <class I>
-bool MovingModel<I>::are_kept(const Part& whole, const TimeCover& times, Limits open, int depth, Halving& halving,
+bool MovingModel<I>::are_kept(const Whole& whole, const TimeCover& times, Limits open, int depth, Halving& halving,
                               std::vector<I>& sizes) const {
   const auto are_halves_kept = [&](Limits limits) {
     return std::ranges::all_of(
@@ -225,7 +242,7 @@ bool MovingModel<I>::are_kept(const Part& whole, const TimeCover& times, Limits 
   const I here = hull(I(begin.lower()), I(end.upper()));
   const std::optional<PathRates<I>> path = rates_.over(whole.model, whole.segment, here);
   if (!path) return false;
-  const Part part{whole.model, whole.segment, times, here, *path, law_range<I>(law, times), whole.speeds};
+  const Part part{whole.model, whole.segment, times, here, *path, law_over(law, times), Speeds::kAny};
   std::vector<I> found = sizes;
   const Limits left = narrow(part, open, found);
   for (std::size_t n = 0; n < limits_.size(); ++n) {
@@ -260,7 +277,8 @@ Moving<I> MovingModel<I>::moving(const Part& part) const {
   Magnitudes at_speed(part.model, path, part.law);
   std::array<bool, kCables> cables{};
   for (const Limit& limit : powers_) cables[static_cast<std::size_t>(limit.id.cable)] = true;
-  const std::optional<Fastest> most = fastest(part, at_speed, cables, false);
+  // Slowed down everywhere, speeds have no longer these accelerations for derivatives.
+  const std::optional<Fastest> most = pace_ ? std::nullopt : fastest(part, at_speed, cables, false);
   for (std::size_t i = 0; i < kCables; ++i) {
     if (!cables[i]) continue;
     result.winch_speed[i] = at_speed({RateKind::kWinchSpeed, static_cast<int>(i)});
@@ -297,11 +315,10 @@ void MovingModel<I>::tighten(const Model<I>& model, const Segment& segment, cons
     if (!certainly_positive(moving.margins[n].value)) open |= Limits{1} << n;
   }
   if (open == 0) return;
-  const std::optional<Part> part = part_of(model, segment, range, Speeds::kAny);
-  if (!part) return;
   std::vector<I> sizes(limits_.size(), I(0.0));
   Halving halving;
-  if (!are_kept(*part, part->times, open, 0, halving, sizes)) return;
+  const TimeCover times = time_cover(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
+  if (!are_kept({model, segment, range}, times, open, 0, halving, sizes)) return;
   for (std::size_t n = 0; n < limits_.size(); ++n) {
     if ((open >> n & 1U) != 0) moving.margins[n] = {limits_[n].id, sizes[n], limits_[n].most - sizes[n]};
   }
@@ -322,6 +339,11 @@ void MovingModel<I>::add_powers(const Moving<I>& moving, const std::array<I, kCa
     const I size = moving.winch_speed[i] * absolute(tension[i]);
     margins.push_back({limit.id, size, limit.most - size});
   }
+}
+
+template <class I>
+Vector6<I> MovingModel<I>::inertia(const Matrix3<I>& r_WP, const Rates<I>& rates) const {
+  return inertial_wrench(bodies_, r_WP, rates);
 }
 
 template <class I>

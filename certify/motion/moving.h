@@ -22,6 +22,7 @@
 #include "certify/arithmetic/mp_interval.h"
 #include "certify/motion/law_range.h"
 #include "certify/motion/motion_rates.h"
+#include "certify/motion/slowing.h"
 #include "kinematics/moving_load.h"
 #include "kinematics/time_limits.h"
 
@@ -62,8 +63,10 @@ struct Moving {
 template <class I>
 class MovingModel {
  public:
-  /// At working_precision(); for Interval under run_upward(). @pre problem.time
-  explicit MovingModel(const Problem& problem);
+  /// At working_precision(); for Interval under run_upward(). With a `slowing`, of the move that is run so everywhere;
+  /// of speeds then nothing is asked, which are least where it is slowed down.
+  /// @pre problem.time, and with a slowing, a stopping time
+  explicit MovingModel(const Problem& problem, const std::optional<Slowing>& slowing = {});
 
   /// At one place; nothing where the motion is not proved to be known (MotionRates::over()). @pre segment.timing
   [[nodiscard]] std::optional<Moving<I>> at(const Model<I>& model, const Segment& segment, const I& place,
@@ -76,6 +79,8 @@ class MovingModel {
   /// Whether a move may be slowed down at any place.
   [[nodiscard]] bool may_stop() const { return slowing_.has_value(); }
 
+  /// w_in of a machine that is turned to r_WP, and has these velocities and accelerations.
+  [[nodiscard]] Vector6<I> inertia(const Matrix3<I>& r_WP, const Rates<I>& rates) const;
   /// How far w_in may be from that of an undisturbed machine, where the platform is turned by up to `turn`.
   [[nodiscard]] Vector6<I> change(const Moving<I>& undisturbed, const I& turn) const;
 
@@ -103,11 +108,18 @@ class MovingModel {
     std::array<I, kCables> winch;
     I load, spin;
   };
+  /// Of a move that is slowed down everywhere.
+  struct Pace {
+    I speed;   ///< τ'
+    I change;  ///< τ'' [1/s]
+  };
   using Limits = std::uint32_t;  ///< a set of limits_
   [[nodiscard]] Limits all_limits() const { return (Limits{1} << limits_.size()) - 1; }
 
   class Magnitudes;
 
+  /// σ' and σ'' at these times, or what they are at that pace.
+  [[nodiscard]] LawRange<I> law_over(const TimeLaw& law, const TimeCover& times) const;
   [[nodiscard]] std::optional<Part> part_of(const Model<I>& model, const Segment& segment, const I& range,
                                             Speeds speeds) const;
   [[nodiscard]] Moving<I> at_any_time(const Part& part) const;
@@ -118,12 +130,18 @@ class MovingModel {
                                                const std::array<bool, kCables>& cables, bool load) const;
   /// Encloses the rates of the open limits. Returns those of which that does not show that they are kept.
   [[nodiscard]] Limits narrow(const Part& part, Limits open, std::vector<I>& sizes) const;
+  /// All of a box, at any speed.
+  struct Whole {
+    const Model<I>& model;
+    const Segment& segment;
+    I range;
+  };
   /// How far the times of a box were halved until the last parts kept their limits: what is likely to do next.
   struct Halving {
     static constexpr int kMost = 6;  ///< more take as long as smaller boxes
     int likely = 1, kept = 0;
   };
-  [[nodiscard]] bool are_kept(const Part& whole, const TimeCover& times, Limits open, int depth, Halving& halving,
+  [[nodiscard]] bool are_kept(const Whole& whole, const TimeCover& times, Limits open, int depth, Halving& halving,
                               std::vector<I>& sizes) const;
   void add_margins(const std::vector<I>& sizes, Moving<I>& to) const;
 
@@ -131,6 +149,7 @@ class MovingModel {
   std::vector<MovingBody<I>> bodies_;
   std::vector<Limit> limits_, powers_;
   std::optional<I> slowing_;  ///< by which share of its speed a move may be slowed down, at most [1/s]
+  std::optional<Pace> pace_;  ///< instead, where it is slowed down everywhere
 };
 
 extern template class MovingModel<Interval>;

@@ -171,7 +171,8 @@ bool is_within(const Deviation& deviation, const TolerancesText& tolerances) {
 
 MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesText& tolerances,
                              const Vector3<MpInterval>& p_WP, const Matrix3<MpInterval>& r_WP,
-                             const Deviation& deviation, MarginId margin) {
+                             const Deviation& deviation, MarginId margin,
+                             const std::function<Vector6<MpInterval>(const Matrix3<MpInterval>&)>& inertia) {
   using I = MpInterval;
   if (!is_within(deviation, tolerances)) {
     Faults<I>::raise();
@@ -210,6 +211,7 @@ MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesTex
           turn(i, 0) * commanded.r_WP(0, j) + turn(i, 1) * commanded.r_WP(1, j) + turn(i, 2) * commanded.r_WP(2, j);
     }
   }
+  if (inertia) deviated.wrench -= inertia(r);
   const Statics<I> s = statics(deviated, Vector3<I>(commanded.p_WP + vector(deviation.position_m)), r);
   const bool is_of_length = margin.kind == MarginKind::kLengthMin || margin.kind == MarginKind::kLengthMax;
   if (!is_of_length && !s.regular) Faults<I>::raise();

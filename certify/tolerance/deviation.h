@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 
 #include "certify/arithmetic/mp_interval.h"
@@ -39,8 +40,10 @@ struct ProposedDeviation {
 /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) for the machine that deviates from `model` and from the
 /// pose (p, R) that is commanded undisturbed; one that is held by lengths, from where its deviation leads
 /// (length_controlled_motion.h): a fault where that is not proved. Void if a fault is raised. At working_precision().
-[[nodiscard]] MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesText& tolerances,
-                                           const Vector3<MpInterval>& p_WP, const Matrix3<MpInterval>& r_WP,
-                                           const Deviation& deviation, MarginId margin);
+/// @param inertia  of a move: what inertia takes of the load where the platform is turned to a rotation
+[[nodiscard]] MpInterval deviated_quantity(
+    const Model<MpInterval>& model, const TolerancesText& tolerances, const Vector3<MpInterval>& p_WP,
+    const Matrix3<MpInterval>& r_WP, const Deviation& deviation, MarginId margin,
+    const std::function<Vector6<MpInterval>(const Matrix3<MpInterval>&)>& inertia = {});
 
 }  // namespace taut

@@ -58,7 +58,15 @@ inline constexpr const char* kMoveRefutedClause =
     "sides along the axes of the platform. Nothing else has inertia. Or, where the witness is of a speed or an "
     "acceleration, the magnitude of that of its length d_i, of the load point or of the rotation, as path and law "
     "command it, is not below the limit that the problem states for it, at every such time; where it is of power, "
-    "that speed of d_i times f_i is not, for some w and w_in of one load. The machine is as the problem states it.";
+    "that speed of d_i times f_i is not, for some w and w_in of one load. Where the machine deviates, it has the "
+    "velocity "
+    "and the acceleration of the platform's origin, and those of its rotation, that path and law command.";
+
+/// Follows kMoveRefutedClause where the problem states a stopping time.
+inline constexpr const char* kSlowedRefutedClause =
+    " The move may be run slower: where the witness states a slowing, all this is about sigma(tau(t)) in place of "
+    "sigma(t), at a time at which tau has the first and the second derivative that the witness states, between 0 and 1"
+    " and plus or minus one divided by the stopping time that the problem states.";
 
 /// Follows "refuted", and the clause of items, where the problem states limits in time and the path has no law.
 inline constexpr const char* kAtRestClause =
@@ -230,7 +238,7 @@ inline std::string claim_text(bool is_proved, const ClaimSubject& of) {
   if (of.has_items) claim += kItemsClause;
   if (of.is_move) {
     claim += is_proved ? kMoveClause : kMoveRefutedClause;
-    if (is_proved && of.may_stop) claim += kMayStopClause;
+    if (of.may_stop) claim += is_proved ? kMayStopClause : kSlowedRefutedClause;
   } else if (of.has_time && !is_proved) {
     claim += kAtRestClause;
   }

@@ -337,6 +337,30 @@ auto read_value_of(Witness& witness) {
   };
 }
 
+/// Whether a witness may say how a move is slowed down: of what is greatest at full speed, or does not depend on it, it
+/// may not.
+bool may_be_slowed(WitnessKind kind, const Problem& problem, const Path& path) {
+  switch (kind) {
+    case WitnessKind::kTensionMin:
+    case WitnessKind::kTensionMax:
+    case WitnessKind::kWinchAcceleration:
+    case WitnessKind::kWinchPower:
+    case WitnessKind::kLoadAcceleration:
+    case WitnessKind::kLoadAngularAcceleration: return path.timing && problem.time && problem.time->stopping_time;
+    default: return false;
+  }
+}
+
+auto read_slowing(Witness& witness) {
+  return [&witness](const Cursor& json) {
+    Slowing& slowing = witness.slowing.emplace();
+    const auto read_change = [&](const Cursor& here) { slowing.change = static_cast<int>(here.integer(-1, 1)); };
+    json.object("change", read_change, "speed", slowing.speed);
+    json["change"].require(slowing.change != 0, "-1 or 1");
+    json["speed"].require(slowing.speed > 0 && slowing.speed < 1, "a number between 0 and 1");
+  };
+}
+
 /// The rest of a witness that a limit in time is not kept. That the value lies beyond it is proved by others.
 template <class ReadMotion>
 void read_rate(const Cursor& json, RateKind rate, const Problem& problem, const Path& path,
@@ -349,7 +373,8 @@ void read_rate(const Cursor& json, RateKind rate, const Problem& problem, const 
   };
   json.object("kind", ignore, "cable", read_cable, "limit", ignore, "value", read_value_of(witness), "at",
               witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, unknowns(problem, path)),
-              "motion", read_motion);
+              "motion", read_motion, may_be_slowed(witness.kind, problem, path) ? "slowing?" : nullptr,
+              read_slowing(witness));
   const std::optional<Expression>& limit = problem.time->of(rate, witness.cable);
   json["kind"].require(limit.has_value(), "a limit that the problem states");
   const Cursor stated = json["limit"];
@@ -410,8 +435,9 @@ Witness read_witness(const Cursor& json, const Problem& problem, const Path& pat
   const auto read_witness_loads = [&](const Cursor& loads) { witness.loads = read_loads(loads, problem.items); };
   json.object("kind", ignore, "cable", integer(witness.cable, 1, kCables), "limit", limit, "value",
               read_value_of(witness), "at", witness_point(witness.at, path), "proof",
-              proof(witness.at_box, witness.at, n), "motion", read_motion, is_at_rest ? "deviation?" : nullptr,
-              read_deviating, loads_key, read_witness_loads);
+              proof(witness.at_box, witness.at, n), "motion", read_motion, "deviation?", read_deviating, loads_key,
+              read_witness_loads, may_be_slowed(witness.kind, problem, path) ? "slowing?" : nullptr,
+              read_slowing(witness));
   --witness.cable;
   require_violation(json, limit, problem, witness);
   return witness;

@@ -83,7 +83,8 @@ struct Witness {
   std::size_t cable = 0;              ///< 0 to 5; of limits only, as what follows but for `motion`; of the load 0
   mpq_class value_lower;
   mpq_class value_upper;
-  std::optional<WitnessDeviation> deviation;     ///< not of a move
+  std::optional<WitnessDeviation> deviation;     ///< not of a limit in time
+  std::optional<Slowing> slowing;                ///< of a move that may be slowed down, and no speed or length
   std::optional<std::vector<LoadChoice>> loads;  ///< one an item, of its kind; of a tension only, and not of a move
   /// Connects the witness: for kSingular the boxes over which the path is shown to be continuous between `at` and
   /// `to`; where the motion is implied, for the witness of the certificate, boxes that with the proved ones cover the

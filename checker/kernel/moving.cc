@@ -292,6 +292,35 @@ std::vector<Speed> extreme_speeds(const Problem& problem, const Speed& law) {
   return corners;
 }
 
+Speed slowed(const Problem& problem, const Speed& law, const Slowing& slowing) {
+  const Ball speed(slowing.speed);
+  const Ball by_slowing = law.rate / problem.time->stopping_time.value().evaluate<MeanValueForm>({}).range();
+  const Ball rate = speed * law.rate;
+  return {rate, sqr(speed) * law.acceleration + Ball(slowing.change) * by_slowing, rate};
+}
+
+/// The frame at another pose, with the same velocities and accelerations by s: R' = [w] R, R'' = [w'] R + [w]^2 R.
+FrameJet at_pose(FrameJet frame, const Frame& pose) {
+  const Matrix3<Ball> R = range(pose.R);
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Vector3<Ball> column = {R[0][j], R[1][j], R[2][j]};
+    const Vector3<Ball> first = cross(frame.w, column);
+    const Vector3<Ball> second = cross(frame.w1, column) + cross(frame.w, first);
+    for (std::size_t c = 0; c < 3; ++c) frame.R[c][j] = SecondJet(column[c], first[c], second[c]);
+  }
+  for (std::size_t c = 0; c < 3; ++c) frame.p[c] = {pose.p[c].range(), frame.p[c].first, frame.p[c].second};
+  return frame;
+}
+
+/// w_in and its change.
+Moving inertia(const Machine& machine, const Problem& problem, const Rates& rates) {
+  Moving result;
+  for (const LoadItem& item : problem.items) {
+    if (const auto* weight = std::get_if<Weight>(&item.set)) add_weight(*weight, item, machine, rates, result);
+  }
+  return result;
+}
+
 /// What is said of one of these speeds.
 class AtSpeed {
  public:
@@ -300,10 +329,7 @@ class AtSpeed {
 
   /// All but the margins.
   [[nodiscard]] Moving moving() const {
-    Moving result;
-    for (const LoadItem& item : problem_.items) {
-      if (const auto* weight = std::get_if<Weight>(&item.set)) add_weight(*weight, item, machine_, rates_, result);
-    }
+    Moving result = inertia(machine_, problem_, rates_);
     for (std::size_t i = 0; i < kCables; ++i) {
       if (problem_.time->winch_power[i]) result.winch_speed[i] = fast(rates_.fastest(rates_.length(machine_, i)), i);
     }
@@ -380,12 +406,20 @@ Ball rate_limit(const Problem& problem, RateKind kind, std::size_t cable) {
   return problem.time.value().of(kind, cable).value().evaluate<MeanValueForm>({}).range();
 }
 
-Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box) {
+Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
+              const std::optional<Slowing>& slowing) {
   const OnBox on_box(machine, problem, path, k, box);
-  const AtSpeed at_speed(machine, problem, on_box, on_box.law);
+  const AtSpeed at_speed(machine, problem, on_box, slowing ? slowed(problem, on_box.law, *slowing) : on_box.law);
   Moving result = at_speed.moving();
   result.margins = at_speed.margins();
   return result;
+}
+
+Vector6<Ball> inertia_of_deviant(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
+                                 const Box& box, const std::optional<Slowing>& slowing, const Frame& pose) {
+  const OnBox on_box(machine, problem, path, k, box);
+  const Speed speed = slowing ? slowed(problem, on_box.law, *slowing) : on_box.law;
+  return inertia(machine, problem, Rates(at_pose(on_box.frame, pose), speed)).inertia;
 }
 
 std::vector<Moving> moving_within_limits(const Machine& machine, const Problem& problem, const Path& path,

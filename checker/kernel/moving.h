@@ -23,6 +23,8 @@
 // (u, v), and speeds rise with u: what keeps its limits at the four corners of (u, v) keeps them inside, as limits are
 // intervals and magnitudes convex.
 //
+// At such a time, a witness may state τ' and τ'' itself.
+//
 // Bodies of the load, each of mass m with its centre of gravity c and with a diagonal inertia I about it in the axes of
 // P, take from what acts from outside the wrench about P_m
 //     w_in = sum of ( m a_c ; R (c - p_m) x m a_c + R I R^T ω' + ω x R I R^T ω ).
@@ -68,10 +70,16 @@ struct Moving {
 /// normals. @pre path.timing @throws Rejected
 void require_time_law(const Path& path);
 
-/// Over a box of segment k, at every time at which the move is there, run as its law says. @throws Undefined where that
-/// is not proved. @pre require_time_law(), and the problem has limits in time
+/// Over a box of segment k, at every time at which the move is there, run as its law says or slowed down. @throws
+/// Undefined where that is not proved. @pre require_time_law(), and the problem has limits in time; for a `slowing`, a
+/// stopping time
 [[nodiscard]] Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                            const Box& box);
+                            const Box& box, const std::optional<Slowing>& slowing = {});
+/// Likewise w_in of a machine that is at `pose` instead of where the path is, but with the velocities and accelerations
+/// that path and law command.
+[[nodiscard]] Vector6<Ball> inertia_of_deviant(const Machine& machine, const Problem& problem, const Path& path,
+                                               std::size_t k, const Box& box, const std::optional<Slowing>& slowing,
+                                               const Frame& pose);
 /// Likewise at the corners of all speeds at which the move may be run there: what keeps its limits at each of them
 /// keeps them. That is one speed where the problem states no stopping time.
 /// Claim: at all of these speeds, limits of speeds and accelerations are kept all over the box. @throws Undefined where

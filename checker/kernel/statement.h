@@ -391,6 +391,13 @@ inline bool is_length_controlled(const Problem& problem, const Path& path) {
   return path.law == Law::kCableLengths || (problem.tolerances && problem.tolerances->cable_length);
 }
 
+/// How a move that may be slowed down is run at a time of its law, z = σ(τ(t)) with a stopping time T: τ' is `speed`,
+/// between 0 and 1, and τ'' is `change` / T. Then τ may go on, and may have come, within its bounds.
+struct Slowing {
+  mpq_class speed;
+  int change = 1;  ///< 1 or -1
+};
+
 /// A deviation, exactly: what is added to the numbers of the problem and to the commanded pose.
 struct WitnessDeviation {
   std::array<std::array<mpq_class, 3>, kCables> base_anchors;

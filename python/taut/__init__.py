@@ -230,6 +230,9 @@ class Witness:
     value: Optional[tuple[float, float]]   #: the tension [N], length [m] or rate [SI] lies between these two
     limit: Optional[float]
     deviates: bool                         #: the machine is not the stated one, but within the case's tolerances
+    #: of a move that may be slowed down: at which share of its speed it is run there, and -1 where it is braked as hard
+    #: as the stopping time allows, 1 where it speeds up as fast; None: as its law says
+    slowing: Optional[tuple[float, int]]
     bodies: Optional[tuple[str, str]]      #: of "contact", which has no cable, value or limit: two that are too near,
     depth_m: Optional[float]               #: by at least so much
 

@@ -283,7 +283,7 @@ std::string amount_text(const ReportContext& scene, const BrokenLimit& broken) {
     return fmt::format("about {} {}; {}", sampled_text(broken.value, nearest_double(broken.limit), unit), unit.name(),
                        limit);
   }
-  if (is_all_but_singular(*broken.proof, scene.certificate.problem.robot)) {
+  if (is_all_but_singular(*broken.proof, scene.certificate.problem)) {
     return fmt::format("{} a million times the greatest limit, next to a singular pose; {}",
                        is_upper(broken.margin) ? "more than" : "below minus", limit);
   }

@@ -164,7 +164,8 @@ Explanation explained(Undecided reason) {
       return entry(
           "A limit may not be kept while the move is slowed down",
           "At its full speed the move keeps its limits at this place. While it is slowed down to rest, or up again, "
-          "within the stated time, a tension or an acceleration may not be within its limit.",
+          "within the stated time, a tension or an acceleration may not be within its limit. No place was found where "
+          "it is proved to be beyond it, either.",
           "A time.may_stop that is short for this machine: braking takes more than its limits allow.",
           "State a longer time.may_stop, or run the move at a lower speed.",
           "open: a limit may not be kept while the move is slowed down [U19]");

@@ -135,7 +135,17 @@ std::vector<ScopeItem> assumed(const Certificate& certificate) {
 }
 
 std::vector<ScopeItem> not_covered(const Certificate& certificate) {
-  return not_covered(certificate.problem, is_move(certificate));
+  std::vector<ScopeItem> result = not_covered(certificate.problem, is_move(certificate));
+  const auto& illustration = certificate.illustration;
+  const bool are_stated = illustration.is_object() && illustration.value("has_constraints", nlohmann::json()) == true;
+  if (are_stated && certificate.problem.space.constraints.empty()) {
+    result.push_back(
+        {"constraints", "the constraints that the case states",
+         "The constraints on poses that the case states: this path is one of poses, and nothing is said of "
+         "how far off the constraints these are.",
+         "The poses are as near to the case's constraints as they have to be."});
+  }
+  return result;
 }
 
 std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law, bool is_in_time) {

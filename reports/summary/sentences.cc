@@ -149,7 +149,7 @@ std::string limit_details(const ReportContext& scene, const PathWitness& witness
   const double limit = nearest_double(witness.limit);
   const DisplayUnit& unit = scene.illustration.units.of(is_length(witness));
   std::string by = "It is at the limit or beyond it, and the limit itself is excluded.";
-  if (is_all_but_singular(witness, scene.certificate.problem.robot)) {
+  if (is_all_but_singular(witness, scene.certificate.problem)) {
     by = "Next to a singular pose tensions grow without bound.";
   } else if (beyond > 0) {
     by = fmt::format("It is beyond the limit by at least {} {}{}", unit.down(beyond, 3), unit.name(),
@@ -252,9 +252,10 @@ std::vector<std::string> undecided_details(const ReportContext& scene) {
 // ---- What the verdict is about.
 
 std::string law_text(const Certificate& certificate) {
+  const std::string onto = certificate.problem.space.constraints.empty() ? "" : ", and from there onto the constraints";
   switch (certificate.path.interpolation) {
-    case Interpolation::kStraight: return "straight in the parameters of the case";
-    case Interpolation::kCubicBSpline: return "a cubic spline in the parameters of the case";
+    case Interpolation::kStraight: return "straight in the parameters of the case" + onto;
+    case Interpolation::kCubicBSpline: return "a cubic spline in the parameters of the case" + onto;
     case Interpolation::kGeodesic: return "straight in position and at a constant rate of turning";
     case Interpolation::kCableLengths: break;
   }
@@ -499,17 +500,17 @@ std::string violation_text(const PathWitness& witness, const Problem& problem, c
   const bool length = is_length(witness);
   const bool upper = is_upper(witness);
   const char* const deviating = witness.deviation ? ", on a machine that deviates within the tolerances," : "";
-  if (is_all_but_singular(witness, problem.robot)) {
+  if (is_all_but_singular(witness, problem)) {
     return fmt::format(
         "the platform{} is at a singular pose, or so near one that the cables cannot balance the load: the tension of "
         "cable {} would be {} {} times the greatest limit",
         deviating, witness.margin.cable + 1, upper ? "more than" : "below minus", "a million");
     static_assert(kSingularTension == 1e6);
   }
-  return fmt::format("{} of cable {}{} {} {}, {} its {} limit of {}", length ? "the length" : "the tension",
+  return fmt::format("{} of cable {}{} {} {}, {} its {} limit of {}{}", length ? "the length" : "the tension",
                      witness.margin.cable + 1, deviating, upper ? "reaches at least" : "falls to at most",
                      value_text(witness, units), upper ? "not below" : "not above", upper ? "upper" : "lower",
-                     quantity(witness.limit, length, units));
+                     quantity(witness.limit, length, units), slowing_text(witness));
 }
 
 std::string value_text(const PathWitness& witness, const DisplayUnits& units) {
@@ -527,10 +528,11 @@ std::string value_text(const PathWitness& witness, const DisplayUnits& units) {
   return quantity(value, is_length(witness), units);
 }
 
-bool is_all_but_singular(const PathWitness& witness, const RobotText& robot) {
-  if (witness.singular || witness.contact || witness.rate || is_length(witness)) return false;
+bool is_all_but_singular(const PathWitness& witness, const Problem& problem) {
+  // Where a move is absurdly fast, so are tensions.
+  if (problem.time || witness.singular || witness.contact || witness.rate || is_length(witness)) return false;
   double greatest = 0;
-  for (const Limits& limits : robot.tension_N) greatest = std::max(greatest, nearest_double(limits.upper));
+  for (const Limits& limits : problem.robot.tension_N) greatest = std::max(greatest, nearest_double(limits.upper));
   return std::abs(nearest_double(proved_value(witness))) > kSingularTension * greatest;
 }
 

@@ -30,7 +30,7 @@ namespace taut {
 [[nodiscard]] std::string value_text(const PathWitness& witness, const DisplayUnits& units);
 
 /// Whether a tension is so far beyond the limits that the pose is singular but for rounding.
-[[nodiscard]] bool is_all_but_singular(const PathWitness& witness, const RobotText& robot);
+[[nodiscard]] bool is_all_but_singular(const PathWitness& witness, const Problem& problem);
 
 /// What the stretches of a refuted audit say where poses are implied (theory.md, 8): which poses they are about, and
 /// how far the move is proved to pass these. @param has_boxes  whether anything is proved outside of them

@@ -200,24 +200,33 @@ std::string rate_value_text(const PathWitness& witness, const Problem& problem, 
   return with_unit(down_text(least, limit * unit.factor, unit.unit), unit);
 }
 
+std::string slowing_text(const PathWitness& witness) {
+  if (!witness.slowing) return "";
+  const auto& [speed, change] = *witness.slowing;
+  return fmt::format(", where the move {} as its stopping time allows at {} % of its speed",
+                     change < 0 ? "is braked as hard" : "speeds up as fast",
+                     rounded_to_nearest(100 * ScalarTraits<double>::from_decimal(speed), 3));
+}
+
 std::string rate_violation_text(const PathWitness& witness, const Problem& problem, const DisplayUnits& units) {
   const RateId id = witness.rate.value();
   const std::string value = rate_value_text(witness, problem, units);
-  const std::string limit = fmt::format("its limit is {}", rate_limit_text(problem.time.value(), id, units));
+  const std::string limit =
+      fmt::format("{}; its limit is {}", slowing_text(witness), rate_limit_text(problem.time.value(), id, units));
   const int cable = id.cable + 1;
   switch (id.kind) {
-    case RateKind::kWinchSpeed: return fmt::format("cable {} would be wound at {} or more; {}", cable, value, limit);
+    case RateKind::kWinchSpeed: return fmt::format("cable {} would be wound at {} or more{}", cable, value, limit);
     case RateKind::kWinchAcceleration:
-      return fmt::format("the winch of cable {} would accelerate by {} or more; {}", cable, value, limit);
+      return fmt::format("the winch of cable {} would accelerate by {} or more{}", cable, value, limit);
     case RateKind::kWinchPower:
-      return fmt::format("the winch of cable {} would need a power of {} or more; {}", cable, value, limit);
-    case RateKind::kLoadSpeed: return fmt::format("the load point would move at {} or more; {}", value, limit);
+      return fmt::format("the winch of cable {} would need a power of {} or more{}", cable, value, limit);
+    case RateKind::kLoadSpeed: return fmt::format("the load point would move at {} or more{}", value, limit);
     case RateKind::kLoadAcceleration:
-      return fmt::format("the load point would accelerate by {} or more; {}", value, limit);
-    case RateKind::kLoadAngularSpeed: return fmt::format("the platform would turn at {} or more; {}", value, limit);
+      return fmt::format("the load point would accelerate by {} or more{}", value, limit);
+    case RateKind::kLoadAngularSpeed: return fmt::format("the platform would turn at {} or more{}", value, limit);
     case RateKind::kLoadAngularAcceleration: break;
   }
-  return fmt::format("the platform's turning would accelerate by {} or more; {}", value, limit);
+  return fmt::format("the platform's turning would accelerate by {} or more{}", value, limit);
 }
 
 const char* too_fast_text(RateKind kind) {

@@ -40,6 +40,9 @@ struct RateUse {
 /// "0.97 m/s", rounded towards the limit.
 [[nodiscard]] std::string size_text(const RateUse& use, const DisplayUnits& units);
 
+/// ", where the move is braked as hard as its stopping time allows at 99.9 % of its speed", rounded; empty of a witness
+/// that is not about a move that is slowed down.
+[[nodiscard]] std::string slowing_text(const PathWitness& witness);
 /// "cable 3 would be wound at 1.2 m/s or more; its limit is 1 m/s". @pre witness.rate
 [[nodiscard]] std::string rate_violation_text(const PathWitness& witness, const Problem& problem,
                                               const DisplayUnits& units);

@@ -11,7 +11,7 @@ Usage: make_bases.py           writes all bases anew; after a change of the form
 """
 import copy, json, math, os, sys
 from fractions import Fraction
-from math import cos, sin, tan, pi, sqrt
+from math import atan, cos, sin, tan, pi, sqrt
 
 from sealing import MARGINS, box, hex64, laid_out, without_implied
 
@@ -378,8 +378,8 @@ def asserted(pr, pa, boxes=1):
     return of_segments(pr, pa, [segment(k, n, (1e-6, 1e-6, 1), boxes) for k in range(len(pa['waypoints']) - n + 1)])
 
 
-def enclosing(x):
-    return ['%.10f' % (x - 1e-8), '%.10f' % (x + 1e-8)]
+def enclosing(x, by=1e-8):
+    return ['%.10f' % (x - by), '%.10f' % (x + by)]
 
 
 FREE = {'parameters': [{'name': n, 'kind': 'periodic' if n in ('phi', 'sigma') else 'real'}
@@ -414,7 +414,8 @@ def deviant(pr, at, deviation):
     tau = get('wrench')[0]
     held = pr['tolerances']['cable_length_m'] is not None or pr.get('held')
     lengths = geometry(pr, at)[1] if held else None
-    wrench = [x + tau * float(y) for x, y in zip(number(pr['load']['wrench']), pr['tolerances']['wrench'])]
+    stated = number(pr['load'].get('wrench', []))  # items have none
+    wrench = [x + tau * float(y) for x, y in zip(stated, pr['tolerances']['wrench'])]
     result = dict(pr, robot=dict(pr['robot'], base_anchors_m=[add(x, get('base_anchor_m', i)) for i, x in enumerate(a)],
                                  platform_anchors_m=[add(x, get('platform_anchor_m', i)) for i, x in enumerate(b)]),
                   load=dict(pr['load'], point_m=add(number(pr['load']['point_m']), get('load_point_m')),
@@ -1361,6 +1362,48 @@ def moves():
     yield 'refuted_in_a_move', certificate(slack, quick, 'refuted', version=6, witness={
         'kind': 'tension_min', 'at': {'segment': k, 's': str(Fraction(z - k))}, 'cable': i + 1,
         'value': ['%.4f' % (low - 0.1), '%.4f' % (low + 0.1)], 'limit': '0.1'})
+
+    # Only where it is slowed down, a cable gets slack.
+    calm, stop, share = dict(corners, timing=law(2**-5, [0, 1, 2], 8)), 0.02, 0.75
+    halting = lifted('robot2-halting', typed(a, m, b), load_speed_m_s='10')
+    assert min(low for _, _, tensions in seen_of(halting, calm, 4) for low, _ in tensions) > 0.5
+    halting['time']['stopping_time_s'] = str(stop)
+    low, i, z, way = min(
+        (low, i, z, way) for z, rate, change in in_law(calm['timing'], 2) if z * 2**20 == int(z * 2**20)
+        for way in (-1, 1) for i, (low, _) in
+        enumerate(Moment(halting, calm, z, share * rate, share**2 * change + way * rate / stop).extremes()))
+    assert low < 0 < z < 1, (low, z)
+    yield 'refuted_while_slowed', certificate(halting, calm, 'refuted', version=6, witness={
+        'kind': 'tension_min', 'at': {'segment': 0, 's': str(Fraction(z))}, 'cable': i + 1, 'limit': '0.1',
+        'value': enclosing(low, 0.1), 'slowing': {'change': way, 'speed': str(share)}})
+
+    # A machine that deviates, with the commanded velocities and accelerations.
+    loose = with_tolerances(lifted('robot2-loose', typed(a, m, b), load_speed_m_s='10'), base_anchor_m=['0.001'] * 6,
+                            position_m='0.01', orientation_rad='0.2')
+    z, rate, change = max((t for t in in_law(calm['timing'], 1) if 0 < t[0] < 1 and t[0] * 2**20 == int(t[0] * 2**20)),
+                          key=lambda t: abs(t[2]))
+    as_stated = Moment(loose, calm, z, rate, change)
+    u = [0.05, -0.04, 0.06]
+    deviation = {('base_anchor_m', 2): [0.0005, -0.0005, 0.0005], ('position_m', None): [0.003, -0.004, 0.002],
+                 ('orientation_rad', None): [2 * atan(size(u)) / size(u) * x for x in u]}
+    other, (p, R) = deviant(loose, as_stated.frames[1], deviation)
+    p0, R0 = as_stated.frames[1]
+    own = times(list(zip(*R0)), R)  # turned in its own axes, it has the same rotation rates in W
+    off = plus(p, p0, -1)
+    there = Moment(other, calm, z, rate, change)
+    there.frames = [(plus(q, off), times(S, own)) for q, S in as_stated.frames]
+    _, i, before, low = max((before[0] - after[0], i, before[0], after[0]) for i, (before, after) in
+                            enumerate(zip(as_stated.extremes(), there.extremes())))
+    assert before > low + 0.05, (before, low)
+    limit = '%.4f' % ((before + low) / 2)
+    loose['robot']['tension_N'][i] = [limit, loose['robot']['tension_N'][i][1]]
+    stated = {'base_anchors_m': [['0'] * 3 for _ in range(6)], 'platform_anchors_m': [['0'] * 3] * 6,
+              'load_point_m': ['0'] * 3, 'wrench': '0', 'position_m': ['0.003', '-0.004', '0.002'],
+              'turn': [str(x) for x in u]}
+    stated['base_anchors_m'][2] = ['0.0005', '-0.0005', '0.0005']
+    yield 'refuted_by_a_deviation_in_a_move', certificate(loose, calm, 'refuted', version=6, witness={
+        'kind': 'tension_min', 'at': {'segment': 0, 's': str(Fraction(z))}, 'cable': i + 1, 'limit': limit,
+        'value': enclosing(low, 0.02), 'deviation': stated})
 
 
 # ---- legs -----------------------------------------------------------------------------------------------------------

@@ -38,7 +38,9 @@ def time_clause(verdict, has_law, may_stop):
     """What follows a claim where the problem has limits in time."""
     if verdict == 'proved':
         return (text_of('kMoveClause') + (text_of('kMayStopClause') if may_stop else '')) if has_law else ''
-    return text_of('kMoveRefutedClause' if has_law else 'kAtRestClause')
+    if not has_law:
+        return text_of('kAtRestClause')
+    return text_of('kMoveRefutedClause') + (text_of('kSlowedRefutedClause') if may_stop else '')
 
 
 def legs_claim(verdicts, are_moves):

@@ -560,6 +560,99 @@ TEST(KernelMoving, WitnessesSayWhatParticlesDo) {
   EXPECT_GT(narrow, all * 9 / 10);
 }
 
+TEST(KernelMoving, WitnessesOfMovesThatAreSlowedDownSayWhatParticlesDo) {
+  const PrecisionScope oracle(oracle::kMovingBits);
+  Operands operands(20);
+  for (int trial = 0; trial < 12; ++trial) {
+    const RandomMove random(operands, 10);
+    Problem problem = limited(random.machine, "1");
+    problem.time->stopping_time = constant("0.5");
+    const Path path = to_kernel(random.path);
+    const oracle::Move move = testing::oracle_of(random.path);
+    const WorkingPrecision precision(128);
+    const Machine machine(problem);
+    for (const int change : {-1, 1}) {
+      Witness witness;
+      witness.at = {random.k, random.box.begin};
+      witness.at_box.bits = 128;
+      const double share = operands.uniform(0, 1);
+      witness.slowing = {exact(share), change};
+      witness.cable = static_cast<std::size_t>(operands.pick(kCables));
+      const oracle::Move run = testing::slowed(move, random.time(-1), BigFloat(share), BigFloat(2.0 * change));
+      for (const WitnessKind kind :
+           {WitnessKind::kTensionMin, WitnessKind::kTensionMax, WitnessKind::kWinchAcceleration,
+            WitnessKind::kWinchPower, WitnessKind::kLoadAcceleration, WitnessKind::kLoadAngularAcceleration}) {
+        witness.kind = kind;
+        if (kind == WitnessKind::kLoadAcceleration) witness.cable = 0;
+        const BigFloat truth = quantity_of(random.machine, run, kind, witness.cable, BigFloat(0.0));
+        const Ball seen = witnessed_quantity(machine, problem, path, witness);
+        EXPECT_TRUE(holds(seen, truth, kError)) << trial << ": " << print(seen) << " is not " << testing::digits(truth);
+        EXPECT_LT(width(seen), 1e-2 * (1 + std::abs(truth.to_double()))) << trial;
+      }
+    }
+  }
+}
+
+TEST(KernelMoving, WitnessesOfMachinesThatDeviateSayWhatParticlesDo) {
+  const PrecisionScope oracle(oracle::kMovingBits);
+  Operands operands(22);
+  for (int trial = 0; trial < 12; ++trial) {
+    RandomMove random(operands, 10);
+    TolerancesText& tolerances = random.machine.problem.tolerances.emplace();
+    tolerances.base_anchor_m.fill("0.01");
+    tolerances.platform_anchor_m.fill("0.01");
+    tolerances.position_m = "0.1";
+    tolerances.orientation_rad = "0.5";
+    Problem problem = limited(random.machine, "1");
+    problem.time->stopping_time = constant("0.5");
+    const Path path = to_kernel(random.path);
+    Witness witness;
+    witness.at = {random.k, random.box.begin};
+    witness.at_box.bits = 128;
+    WitnessDeviation& by = witness.deviation.emplace();
+    const auto some = [&](std::array<mpq_class, 3>& x, double most) {
+      oracle::Big3 result;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double value = operands.uniform(-most, most);
+        x[c] = exact(value);
+        result[c] = BigFloat(value);
+      }
+      return result;
+    };
+    taut::Problem other = random.machine.problem;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const oracle::Big3 a = some(by.base_anchors[i], 0.005), b = some(by.platform_anchors[i], 0.005);
+      for (std::size_t c = 0; c < 3; ++c) {
+        auto &base = other.robot.base_anchors_m[i][c], &platform = other.robot.platform_anchors_m[i][c];
+        base = (oracle::big(base) + a[c]).to_decimal(80, MPFR_RNDN);
+        platform = (oracle::big(platform) + b[c]).to_decimal(80, MPFR_RNDN);
+      }
+    }
+    const oracle::Big3 position = some(by.position, 0.05), turn = some(by.turn, 0.1);
+    const BigFloat t = random.time(-1);
+    const oracle::Move move = testing::tracked(testing::oracle_of(random.path), t, position, turn);
+    const WorkingPrecision precision(128);
+    const Machine machine(problem);
+    for (const bool is_slowed : {false, true}) {
+      if (is_slowed) witness.slowing = {mpq_class(1, 4), -1};
+      const oracle::Move run = is_slowed ? testing::slowed(move, t, BigFloat(0.25), BigFloat(-2.0))
+                                         : testing::slowed(move, t, BigFloat(1.0), BigFloat(0.0));
+      for (const WitnessKind kind : {WitnessKind::kTensionMin, WitnessKind::kTensionMax}) {
+        for (witness.cable = 0; witness.cable < kCables; ++witness.cable) {
+          witness.kind = kind;
+          testing::MovingMachine deviating = random.machine;
+          deviating.problem = other;
+          const BigFloat truth = quantity_of(deviating, run, kind, witness.cable, BigFloat(0.0));
+          const Ball seen = witnessed_quantity(machine, problem, path, witness);
+          EXPECT_TRUE(holds(seen, truth, kError))
+              << trial << ": " << print(seen) << " is not " << testing::digits(truth);
+          EXPECT_LT(width(seen), 1e-2 * (1 + std::abs(truth.to_double()))) << trial;
+        }
+      }
+    }
+  }
+}
+
 TEST(KernelMoving, ARateIsConfirmedOnlyWhereItIsNotBelowItsLimit) {
   const PrecisionScope oracle(oracle::kMovingBits);
   Operands operands(21);

@@ -607,7 +607,23 @@ TEST(Reader, ReadsAMoveThatMayBeStopped) {
                    {"/problem/time/stopping_time_s", kRemoved, "claim: expected the text that belongs"}});
   Json refuted = refuted_move();
   refuted["problem"]["time"]["stopping_time_s"] = "1";
+  refuted["claim"] = std::string(kRefutedClaim) + kItemsClause + kMoveRefutedClause + kSlowedRefutedClause;
   EXPECT_EQ(message(sealed(refuted)), "none") << "it is refuted as its law runs it";
+  expect_messages(refuted, {{"/witness/slowing", {{"change", 1}, {"speed", "0.5"}}, "slowing"},
+                            {"/claim", std::string(kRefutedClaim) + kItemsClause + kMoveRefutedClause, "claim:"}});
+  refuted["witness"] = witness();
+  refuted["witness"]["slowing"] = {{"change", -1}, {"speed", "0.25"}};
+  const Certificate slowed = read_certificate(sealed(refuted));
+  EXPECT_EQ(slowed.witness->slowing->change, -1);
+  EXPECT_EQ(slowed.witness->slowing->speed, mpq_class(1, 4));
+  constexpr const char* speed = "witness.slowing.speed: expected a number between 0 and 1";
+  expect_messages(refuted, {{"/witness/slowing/speed", "1", speed},
+                            {"/witness/slowing/speed", "0", speed},
+                            {"/witness/slowing/speed", 0.5, "witness.slowing.speed: expected"},
+                            {"/witness/slowing/change", 0, "witness.slowing.change: expected -1 or 1"},
+                            {"/witness/slowing/change", 2, "witness.slowing.change: expected an integer from -1 to 1"},
+                            {"/witness/slowing/change", kRemoved, "witness.slowing: expected the key 'change'"},
+                            {"/witness/kind", "length_min", "slowing"}});
 }
 
 TEST(Reader, ReadsWitnessesOfEveryRate) {
@@ -756,7 +772,8 @@ TEST(Reader, NamesWhatIsWrongWithTheWitnessOfAMove) {
   Json of_tension = refuted_move();
   of_tension["witness"] = witness();
   expect_messages(of_tension, {{"/witness/loads", loads, "witness: expected no key 'loads'"},
-                               {"/witness/deviation", {{"wrench", "1"}}, "witness: expected no key 'deviation'"}});
+                               {"/witness/deviation", {{"wrench", "1"}}, "expected tolerances to be within"},
+                               {"/witness/slowing", {{"change", 1}, {"speed", "0.5"}}, "expected no key 'slowing'"}});
   Json at_rest = refuted_move();
   at_rest["path"].erase("timing");
   at_rest["claim"] = std::string(kRefutedClaim) + kItemsClause + kAtRestClause;

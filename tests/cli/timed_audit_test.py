@@ -212,6 +212,25 @@ class TimedAudits(InFolder):
         self.refused("t[s],l1[m],l2[m],l3[m],l4[m],l5[m],l6[m]\n0,9,9,9,9,9,9\n", "got cable lengths, expected poses")
         self.refused("t[s],l1[m],l2[m],l3[m],l4[m],l5[m],l6[m],v1[m/s]\n0,9,9,9,9,9,9,0\n", "poses.csv beside it")
 
+    def test_constraints_are_not_asked_of_poses(self):
+        case = os.path.join(CASES, "moves", "hexacrane-on-equations.yaml")
+        rounding = ("--timed", "--rounding", "0.6mm,0.3deg")
+        said = run(TAUT, "plan", case, "--out", self.path("planned"), "--no-report")
+        self.assertEqual(said.returncode, 0, said.stderr)
+        off = re.sub(r"^([\d.]+),([^,]+)", lambda m: f"{m[1]},{float(m[2]) + 0.002}",
+                     text_of(self.path("planned", "poses.csv")), flags=re.M)
+        for name, rows in (("poses.csv", text_of(self.path("planned", "poses.csv"))), ("off.csv", off)):
+            with self.subTest(name):
+                table = self.write(name, rows)
+                said = run(TAUT, "audit", case, table, "--out", self.path("out"), *rounding)
+                self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+                self.assertIn("constraints are NOT asked of these poses", said.stdout)
+                self.assertIn("The constraints on poses that the case states", text_of(self.path("out", "report.html")))
+        # Columns of the case's parameters mean the motion that the constraints imply, which is not fitted.
+        own = "t[s],px[m],py[m],pz[m],phi[rad],theta[rad]\n"
+        self.refused(own + "".join(f"{t},0.081,0.05,0.217,-2.59,0.82\n" for t in range(20)),
+                     "in a case with constraints", case=case)
+
     def test_use_that_makes_no_sense_is_refused(self):
         table = quaternions(log())
         self.refused(table, "got a table and no rounding", options=("--timed",))

@@ -99,6 +99,19 @@ class Planned(Verify):
                 edit(mutant)
                 said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
                 self.assertEqual((said.returncode, said.stdout[:7]), (1, "REFUSED"), said.stderr)
+        # Of a load that is nothing, everything would be true.
+        nothing = [item("platform", "weight", "mass_kg", ["80000", "8000"]),
+                   item("payload", "weight", "at_tolerance_m", "-1e-9"),
+                   item("wind", "force", "disc", {"radius": "-1", "normal": ["0", "0", "1"]}),
+                   item("gust", "force", "ball", {"radius": "-1"}),
+                   item("drive", "moment", "segment", {"direction": ["0", "0", "1"], "range": ["2", "1"]})]
+        for k, edit in enumerate(nothing):
+            with self.subTest(f"nothing {k}"):
+                mutant = copy.deepcopy(stated)
+                edit(mutant)
+                said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
+                self.assertEqual(said.returncode, 3, said.stdout + said.stderr)
+                self.assertRegex(said.stderr, "below 0|ends before it begins")
 
     def test_other_boxes(self):
         certificate = self.plan(ROBOT1)
@@ -123,6 +136,8 @@ class Planned(Verify):
                 ("a function", '"pz":"pz"', '"pz":"tan(pz)"'),
                 ("a tower of powers", '"pz":"pz"', '"pz":"0*((pz^99)^99)^99"'),
                 ("not a number", '"9.81"', '"nan"'), ("not a number", '"-9.81"', '"-9,81"'),
+                ("another version", '"version":4', '"version":99'),
+                ("another verdict", '"verdict":"proved"', '"verdict":"refuted"'),
                 ("not JSON", '"robot":', '"robot"'), ("another file", "taut-certificate", "taut-atlas")]:
             with self.subTest(name):
                 mutant = text.replace(": ", ":").replace(old, new, 1) if old in text.replace(": ", ":") else None

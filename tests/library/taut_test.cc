@@ -496,10 +496,10 @@ TEST(Abi, HasTypesOfTheseSizes) {
   EXPECT_EQ(sizeof(taut::TimeLaw), 32U);
   EXPECT_EQ(sizeof(taut::Waypoint), 48U);
   EXPECT_EQ(sizeof(taut::Table), 48U);
-  EXPECT_EQ(sizeof(taut::Witness), 200U);
-  EXPECT_EQ(sizeof(taut::Stretch), 520U);
+  EXPECT_EQ(sizeof(taut::Witness), 224U);
+  EXPECT_EQ(sizeof(taut::Stretch), 568U);
   EXPECT_EQ(sizeof(taut::Sample), 232U);
-  EXPECT_EQ(sizeof(taut::MovePlan), 264U);
+  EXPECT_EQ(sizeof(taut::MovePlan), 288U);
   EXPECT_EQ(sizeof(taut::Certificate), 16U);
   EXPECT_EQ(sizeof(taut::Theorem), 16U);
   EXPECT_EQ(sizeof(taut::Progress), 24U);

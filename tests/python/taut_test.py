@@ -405,6 +405,15 @@ class MovesInTime(unittest.TestCase):
                     law = taut.TimeLaw(seconds / (len(controls) - 3), controls)
                     said = taut.prove(self.case, rows, interpolation=interpolation, timing=law)
                     self.assertEqual((said.verdict, said.duration_s), (verdict, law.duration_s), said.reason)
+            middle = np.vstack([rows[:1], (rows[:1] + rows[1:]) / 2, rows[1:]])
+            if interpolation == "geodesic":
+                middle[1, 3:] /= np.linalg.norm(middle[1, 3:])
+            else:
+                middle[1, 7:] = np.mean(rows[:, 7:], axis=0)  # a pose near it is all that is asked for
+            slow_then_fast = [0, 0, 0, *np.linspace(0, 1, 61)[1:-1], 1, 1, 1, *np.linspace(1, 2, 7)[1:-1], 2, 2, 2]
+            law = taut.TimeLaw(1.0, slow_then_fast)
+            said = taut.prove(self.case, middle, interpolation=interpolation, timing=law)
+            self.assertEqual((said.verdict, said.theorem.witness.at.index), ("refuted", 1), said.reason)
 
     def test_that_are_too_fast_are_refuted(self):
         path = self.planned.path

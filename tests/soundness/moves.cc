@@ -61,7 +61,7 @@ struct MoveTally {
   /// Of exact machines and loads, and of those with tolerances.
   std::array<std::array<std::array<Row, kMoveDecades>, kKindNames.size()>, 2> rows;
   Count trials{0}, skipped{0}, wrong{0}, proved{0}, refuted{0}, undecided{0}, boxes{0}, multiprecision{0};
-  Count deviating{0}, ranges{0};
+  Count deviating{0}, ranges{0}, slowed{0}, refuted_slowed{0}, refuted_deviating{0};
   Count looked_at{0}, judged{0}, compared{0};
   Count refuted_too_fast{0}, refuted_tension{0}, refuted_length{0}, refuted_singular{0};
   Count kernel_boxes{0}, kernel_moves{0}, kernel_proved{0}, kernel_refuted{0}, kernel_not_led{0}, kernel_open{0};
@@ -165,9 +165,9 @@ TimeLaw random_law(const Path& path, double seconds_a_segment, bool rests, Rando
   return law;
 }
 
-WeightsAs random_weights(Random& random, std::size_t count) {
-  WeightsAs as(count);
-  for (WeightAs& weight : as) {
+As random_weights(Random& random, std::size_t count) {
+  As as{std::vector<WeightAs>(count)};
+  for (WeightAs& weight : as.weights) {
     weight.mass = one_in(random, 4) ? uniform(random, 0, 1) : static_cast<double>(random() % 2);
     for (double& x : weight.offset) x = uniform(random, -1, 1);
     scale_to(weight.offset, one_in(random, 4) ? uniform(random, 0, 1) : 1);
@@ -246,11 +246,13 @@ class MoveJudge {
       clear_other_tolerances(trial_);
       choose_masses(trial_, random_, one_in(random_, 2));
     }
-    trial_.problem.time.emplace();
+    TimeText& time = trial_.problem.time.emplace();
     path_ = random_path(trial_, random_);
     const double acceleration = 9.81 * std::pow(10.0, uniform(random_, -3, is_for_kernel_ ? -0.5 : 1));
     path_.timing =
         random_law(path_, std::sqrt(0.15 * trial_.size / acceleration), is_for_kernel_ || one_in(random_, 2), random_);
+    if (one_in(random_, 4))
+      time.stopping_time_s = decimal(path_.timing->step_s * std::pow(10.0, uniform(random_, -1, 2)));
     segment_ = random_() % path_.segments();
     for (std::size_t k = 0; k < path_.segments(); ++k) segments_.push_back(on_segment(k));
     for (std::size_t k = 0; k < path_.segments(); ++k) {
@@ -265,6 +267,7 @@ class MoveJudge {
       has_ranges = has_ranges || weight->mass_lower != weight->mass_upper || number<double>(weight->at_tolerance) > 0;
     }
     if (has_tolerances()) ++tally_.deviating;
+    if (may_stop()) ++tally_.slowed;
     if (has_ranges) ++tally_.ranges;
     is_exact_ = !has_tolerances() && !has_ranges;
   }
@@ -290,18 +293,25 @@ class MoveJudge {
   [[nodiscard]] bool has_tolerances() const { return trial_.problem.tolerances.has_value(); }
   [[nodiscard]] const Simulation<double>& approx() const { return approx_[segment_]; }
   [[nodiscard]] Deviation some_deviation() { return has_tolerances() ? random_deviation(random_) : Deviation(); }
-  [[nodiscard]] WeightsAs some_weights() { return random_weights(random_, exact_->bodies().size()); }
+  [[nodiscard]] bool may_stop() const { return trial_.problem.time->stopping_time_s.has_value(); }
+  [[nodiscard]] As some_choice() {
+    As as = random_weights(random_, exact_->bodies().size());
+    if (!may_stop() || one_in(random_, 3)) return as;
+    as.share = one_in(random_, 4) ? uniform(random_, 0, 1) : static_cast<double>(random_() % 2);
+    as.change = one_in(random_, 4) ? uniform(random_, -1, 1) : one_in(random_, 2) ? -1 : 1;
+    return as;
+  }
 
   /// What is sought to be least.
-  [[nodiscard]] double objective(double t, const Deviation& x, const WeightsAs& as, std::size_t id) const {
+  [[nodiscard]] double objective(double t, const Deviation& x, const As& as, std::size_t id) const {
     const double value = approx().quantity(t, x, as, id);
     return is_upper(id) ? -value : value;
   }
   [[nodiscard]] BigFloat exact_objective(double t) const {
-    const BigFloat value = exact_->quantity(BigFloat(t), worst_, weights_, id_);
+    const BigFloat value = exact_->quantity(BigFloat(t), worst_, as_, id_);
     return is_upper(id_) ? -value : value;
   }
-  [[nodiscard]] Deviation worst_deviation(double t, const Deviation& x, const WeightsAs& as, std::size_t id) const {
+  [[nodiscard]] Deviation worst_deviation(double t, const Deviation& x, const As& as, std::size_t id) const {
     return worst_deviations<1>(x, matters_, [&](const Deviation& y) { return std::array{objective(t, y, as, id)}; })[0];
   }
 
@@ -337,16 +347,16 @@ class MoveJudge {
     id_ = drawn < 9    ? random_() % (2 * kCables)
           : drawn < 10 ? 2 * kCables + random_() % (2 * kCables)
                        : kMargins + random_() % kRates;
-    weights_ = some_weights();
+    as_ = some_choice();
     for (std::size_t k = 0; k < path_.segments(); ++k) {
       if (k == segment_) continue;
-      for (const double t : times(k, 2)) include(approx_[k].quantities(t, {}, weights_));
+      for (const double t : times(k, 2)) include(approx_[k].quantities(t, {}, as_));
     }
     const std::vector<double> samples = times(segment_, 5);
     double least = HUGE_VAL, determinant = 0;
     std::size_t best = 0;
     for (std::size_t n = 0; n < samples.size(); ++n) {
-      const auto all = approx().quantities(samples[n], {}, weights_);
+      const auto all = approx().quantities(samples[n], {}, as_);
       if (!std::isfinite(all.determinant) || !(determinant * all.determinant >= 0) || all.determinant == 0) {
         return false;
       }
@@ -363,17 +373,17 @@ class MoveJudge {
     best_t_ = samples[best];
     const double from = samples[best == 0 ? 0 : best - 1], to = samples[std::min(best + 1, samples.size() - 1)];
     for (int round = 0; round < (is_exact_ ? 1 : 2); ++round) {
-      const double t = golden_section([&](double x) { return objective(x, worst_, weights_, id_); }, from, to);
-      if (objective(t, worst_, weights_, id_) < objective(best_t_, worst_, weights_, id_)) best_t_ = t;
+      const double t = golden_section([&](double x) { return objective(x, worst_, as_, id_); }, from, to);
+      if (objective(t, worst_, as_, id_) < objective(best_t_, worst_, as_, id_)) best_t_ = t;
       if (is_exact_) break;
       constexpr int kTries = 12;
       for (int n = 0; n < kTries; ++n) {
-        const WeightsAs other = some_weights();
-        if (objective(best_t_, worst_, other, id_) < objective(best_t_, worst_, weights_, id_)) weights_ = other;
+        const As other = some_choice();
+        if (objective(best_t_, worst_, other, id_) < objective(best_t_, worst_, as_, id_)) as_ = other;
       }
       if (!has_tolerances()) continue;
-      for (int k = 0; k < 2; ++k) worst_ = worst_deviation(best_t_, worst_, weights_, id_);
-      const auto all = approx().quantities(best_t_, worst_, weights_);
+      for (int k = 0; k < 2; ++k) worst_ = worst_deviation(best_t_, worst_, as_, id_);
+      const auto all = approx().quantities(best_t_, worst_, as_);
       if (!(determinant * all.determinant > 0)) return false;
       include(all);
     }
@@ -425,7 +435,7 @@ class MoveJudge {
     decade_ = one_in(random_, 2) ? kMoveDecades - 1 - random_() % 5 : random_() % kMoveDecades;
     delta_ = range_ * std::pow(10.0, -13.0 + static_cast<double>(decade_) + uniform(random_, 0, 1));
     violated_ = one_in(random_, 2);
-    const BigFloat extremum = exact_->quantity(BigFloat(best_t_), worst_, weights_, id_);
+    const BigFloat extremum = exact_->quantity(BigFloat(best_t_), worst_, as_, id_);
     const DecimalText text = decimal(extremum + BigFloat(violated_ == is_upper(id_) ? -delta_ : delta_));
     if (is_rate(id_)) {
       if (text.starts_with('-')) return false;
@@ -443,7 +453,7 @@ class MoveJudge {
   // ---- What is said of it -------------------------------------------------------------------------------------------
 
   /// The least margin in floating point, in parts of its range; where it is little, the point is judged.
-  double look_at(double t, const Deviation& x, const WeightsAs& as, std::size_t& least_id) {
+  double look_at(double t, const Deviation& x, const As& as, std::size_t& least_id) {
     constexpr double kLittle = 1e-5;
     const auto all = approx().quantities(t, x, as);
     double least = HUGE_VAL;
@@ -459,7 +469,7 @@ class MoveJudge {
     return least;
   }
 
-  void require_feasible(double t, const Deviation& x, const WeightsAs& as, const char* where) {
+  void require_feasible(double t, const Deviation& x, const As& as, const char* where) {
     const BigFloat time(t), s = exact_->place(time);
     if (s < BigFloat(0.0) || s > BigFloat(1.0)) return;  // by rounding at an end
     ++tally_.judged;
@@ -482,7 +492,7 @@ class MoveJudge {
     double least = HUGE_VAL, least_t = best_t_;
     std::size_t id = id_;
     Deviation x = worst_;
-    WeightsAs as = weights_;
+    As as = as_;
     for (int k = 0; k < kTimes; ++k) {
       ++tally_.looked_at;
       // Every fourth is near t*.
@@ -491,7 +501,7 @@ class MoveJudge {
                                   : uniform(random_, begin_, end_);
       if (!(t > begin_ && t < end_)) continue;
       const Deviation other = some_deviation();
-      const WeightsAs weights = some_weights();
+      const As weights = some_choice();
       std::size_t here = id;
       const double margin = look_at(t, other, weights, here);
       if (margin < least) {
@@ -511,7 +521,7 @@ class MoveJudge {
                                std::min(end_, least_t + away));
     }
     require_feasible(least_t, x, as, "where a search ended");
-    require_feasible(best_t_, worst_, some_weights(), "at t* with other masses");
+    require_feasible(best_t_, worst_, some_choice(), "at t* with other masses");
   }
 
   static BigFloat number_of(const Dyadic& s) { return enclose<MpInterval>(s).lower(); }
@@ -540,13 +550,21 @@ class MoveJudge {
     }
     constexpr int kHalvings = 2 * static_cast<int>(kBits);
     const BigFloat s = number_of(witness.box.mid());
-    const Instant<BigFloat> commanded = exact_->at(exact_->time(s, kHalvings));
+    As as;
+    if (const auto& slowing = witness.slowing) {
+      if (!may_stop()) breach("refuted where it is slowed down, which it may not be");
+      as.share = number<double>(slowing->speed);  // exact
+      as.change = slowing->change;
+      ++tally_.refuted_slowed;
+    }
+    if (witness.deviation) ++tally_.refuted_deviating;
+    const Instant<BigFloat> commanded = exact_->at(exact_->time(s, kHalvings), as);
     if (witness.deviation && !exact_->motion().is_within(*witness.deviation)) {
       breach("refuted by what is beyond the tolerances");
     }
     // The prover's enclosure is of all masses that the load may have: each of them has to do.
     for (int k = 0; k < 3; ++k) {
-      const WeightsAs as = some_weights();
+      as.weights = some_choice().weights;
       const auto typed = witness.deviation ? exact_->motion().witnessed(s, *witness.deviation)
                                            : MachineAt<BigFloat>{exact_->motion().machine({}), commanded.pose};
       if (!typed) return breach("refuted where there is no pose");
@@ -561,11 +579,11 @@ class MoveJudge {
 
   /// All quantities at t*, with an error below a tenth of what is tolerated.
   void hold_to_400_bits() {
-    const auto mine = exact_->quantities(BigFloat(best_t_), worst_, weights_);
+    const auto mine = exact_->quantities(BigFloat(best_t_), worst_, as_);
     const PrecisionScope precision(400);
     const Simulation<BigFloat> finer(segments_[segment_], *path_.timing, segment_, options_.mass_error,
                                      oracle::big("1e-40"));
-    const auto all = finer.quantities(BigFloat(best_t_), worst_, weights_);
+    const auto all = finer.quantities(BigFloat(best_t_), worst_, as_);
     for (std::size_t id = 0; id < kQuantities; ++id) {
       ++tally_.compared;
       if (abs(all.value[id] - mine.value[id]) > BigFloat(0.1) * tolerance(id)) {
@@ -668,7 +686,7 @@ class MoveJudge {
   std::size_t id_ = 0;
   double begin_ = 0, end_ = 0, best_t_ = 0;
   Deviation worst_;
-  WeightsAs weights_;
+  As as_;
   bool is_exact_ = false, is_for_kernel_ = false, violated_ = false, positive_ = false;
   std::size_t decade_ = 0;
   double delta_ = 0, range_ = 0;
@@ -693,12 +711,17 @@ void print_rows(const MoveTally& tally) {
 void print_summary(const MoveTally& tally, double seconds) {
   const long trials = tally.trials;
   fmt::print(
-      "\n{} segments ({} with machines that deviate, {} with masses in ranges, {} skipped): {} proved, {} "
-      "refuted, {} undecided\n",
-      trials, tally.deviating.load(), tally.ranges.load(), tally.skipped.load(), tally.proved.load(),
-      tally.refuted.load(), tally.undecided.load());
-  fmt::print("refuted by a tension {}, a rate {}, a length {}, a singular pose {}\n", tally.refuted_tension.load(),
-             tally.refuted_too_fast.load(), tally.refuted_length.load(), tally.refuted_singular.load());
+      "\n{} segments ({} with machines that deviate, {} with masses in ranges, {} that may be slowed down, {} "
+      "skipped): "
+      "{} proved, {} refuted, {} undecided\n",
+      trials, tally.deviating.load(), tally.ranges.load(), tally.slowed.load(), tally.skipped.load(),
+      tally.proved.load(), tally.refuted.load(), tally.undecided.load());
+  fmt::print(
+      "refuted by a tension {}, a rate {}, a length {}, a singular pose {}; {} of them where it is slowed down, {} by "
+      "a "
+      "deviation\n",
+      tally.refuted_tension.load(), tally.refuted_too_fast.load(), tally.refuted_length.load(),
+      tally.refuted_singular.load(), tally.refuted_slowed.load(), tally.refuted_deviating.load());
   fmt::print(
       "{} boxes, {} of them in MPFR; {} times looked at after proofs, {} of them in {} bits; {} quantities held "
       "to 400 bits\n",

@@ -88,7 +88,11 @@ struct WeightAs {
   double mass = 0.5;     ///< in [0, 1], of the range
   Vec<double> offset{};  ///< in the unit ball, of the tolerance
 };
-using WeightsAs = std::vector<WeightAs>;
+/// What may be chosen while a move is run.
+struct As {
+  std::vector<WeightAs> weights;
+  double share = 1, change = 0;  ///< it is slowed down: τ', and τ'' times the stopping time
+};
 
 template <class S>
 struct Particle {
@@ -115,12 +119,12 @@ class Bodies {
   [[nodiscard]] std::size_t size() const { return bodies_.size(); }
 
   /// Of the same masses, centres of gravity and inertias: a corner of a box is at ± side/√12.
-  [[nodiscard]] std::vector<Particle<S>> particles(const WeightsAs& as) const {
+  [[nodiscard]] std::vector<Particle<S>> particles(const As& as) const {
     std::vector<Particle<S>> result;
     for (std::size_t n = 0; n < bodies_.size(); ++n) {
       const Body& body = bodies_[n];
-      const S mass = scale_ * (body.least + S(as[n].mass) * (body.most - body.least));
-      const Vec<S> centre = body.at + scaled(body.reach, as[n].offset);
+      const S mass = scale_ * (body.least + S(as.weights[n].mass) * (body.most - body.least));
+      const Vec<S> centre = body.at + scaled(body.reach, as.weights[n].offset);
       if (!body.box) {
         result.push_back({centre, mass});
         continue;
@@ -200,6 +204,24 @@ struct Instant {
     result.r2 = r2 * turned;
     return result;
   }
+  /// Of the same place, passed at a share τ' of its speed, which changes at the rate τ''.
+  [[nodiscard]] Instant slowed(const S& share, const S& change) const {
+    const auto second = [&](const S& a, const S& b) -> S { return share * share * b + change * a; };
+    Instant result = *this;
+    for (std::size_t i = 0; i < 3; ++i) {
+      result.p1[i] = share * p1[i];
+      result.p2[i] = second(p1[i], p2[i]);
+      for (std::size_t j = 0; j < 3; ++j) {
+        result.r1[i][j] = share * r1[i][j];
+        result.r2[i][j] = second(r1[i][j], r2[i][j]);
+      }
+    }
+    for (std::size_t i = 0; i < kCables; ++i) {
+      result.speed[i] = share * speed[i];
+      result.acceleration[i] = second(speed[i], acceleration[i]);
+    }
+    return result;
+  }
 };
 
 template <class S>
@@ -214,14 +236,19 @@ class Simulation {
         motion_(trial),
         machine_(make_machine<S>(trial.problem)),
         tolerances_(make_tolerances<S>(trial.problem)),
-        bodies_(trial.problem, mass_error) {}
+        bodies_(trial.problem, mass_error) {
+    if (const auto& within = trial.problem.time->stopping_time_s) slowing_ = S(1.0) / number<S>(*within);
+  }
 
   [[nodiscard]] const Bodies<S>& bodies() const { return bodies_; }
   [[nodiscard]] const Motion<S>& motion() const { return motion_; }
   [[nodiscard]] S place(const S& t) const { return law_at(law_, t) - segment_; }
   [[nodiscard]] S time(const S& s, int halvings) const { return time_of(law_, S(segment_ + s), halvings); }
 
-  [[nodiscard]] Instant<S> at(const S& t) const {
+  [[nodiscard]] Instant<S> at(const S& t, const As& as) const {
+    return by_law(t).slowed(S(as.share), S(as.change) * slowing_);
+  }
+  [[nodiscard]] Instant<S> by_law(const S& t) const {
     const std::size_t piece = piece_at(law_, t);
     const auto pose = [&](const S& time) { return motion_.reference(law_at(law_, piece, time) - segment_); };
     const RigidPose<S> before = pose(t - h_), now = pose(t), after = pose(t + h_);
@@ -247,13 +274,13 @@ class Simulation {
   }
 
   /// The machine and pose as they are, with what the load's mass asks for taken from the wrench.
-  [[nodiscard]] MachineAt<S> machine_at(const Instant<S>& commanded, const Deviation& x, const WeightsAs& as) const {
+  [[nodiscard]] MachineAt<S> machine_at(const Instant<S>& commanded, const Deviation& x, const As& as) const {
     RigidPose<S> pose = commanded.pose;
     pose.p = pose.p + scaled(tolerances_.position, x.position);
     pose.r = turn(scaled(tolerances_.turn, x.turn)) * pose.r;
     return with_inertia({deviate(machine_, tolerances_, x), pose}, commanded, as);
   }
-  [[nodiscard]] MachineAt<S> with_inertia(MachineAt<S> at, const Instant<S>& commanded, const WeightsAs& as) const {
+  [[nodiscard]] MachineAt<S> with_inertia(MachineAt<S> at, const Instant<S>& commanded, const As& as) const {
     const Instant<S> x = commanded.moved_to(at.pose);
     for (const Particle<S>& particle : bodies_.particles(as)) {
       const Vec<S> force = particle.mass * (x.p2 + x.r2 * particle.at);
@@ -279,8 +306,8 @@ class Simulation {
     const auto i = static_cast<std::size_t>(rate_id(id).cable);
     return magnitude(commanded.speed[i]) * magnitude(tension_range(at.machine, at.pose, i).high);
   }
-  [[nodiscard]] S quantity(const S& t, const Deviation& x, const WeightsAs& as, std::size_t id) const {
-    const Instant<S> commanded = this->at(t);
+  [[nodiscard]] S quantity(const S& t, const Deviation& x, const As& as, std::size_t id) const {
+    const Instant<S> commanded = this->at(t, as);
     return quantity(commanded, machine_at(commanded, x, as), id);
   }
 
@@ -288,8 +315,8 @@ class Simulation {
     std::array<S, kQuantities> value;
     S determinant;
   };
-  [[nodiscard]] All quantities(const S& t, const Deviation& x, const WeightsAs& as) const {
-    const Instant<S> commanded = this->at(t);
+  [[nodiscard]] All quantities(const S& t, const Deviation& x, const As& as) const {
+    const Instant<S> commanded = this->at(t, as);
     const MachineAt<S> at = machine_at(commanded, x, as);
     const StaticsAt<S> statics = campaign::statics(at.machine, at.pose);
     All all;
@@ -332,6 +359,7 @@ class Simulation {
   Machine<S> machine_;
   Tolerances<S> tolerances_;
   Bodies<S> bodies_;
+  S slowing_{0.0};  ///< 1 / the stopping time
 };
 
 }  // namespace taut::campaign

@@ -121,6 +121,12 @@ inline BigFloat time_at(const TimeLaw& law, const BigFloat& s) {
   return to;
 }
 
+/// `move` at the time `at`, run at a share of its speed that changes at a rate: at t = 0.
+inline oracle::Move slowed(const oracle::Move& move, const BigFloat& at, const BigFloat& share,
+                           const BigFloat& change) {
+  return oracle::Move([=](const BigFloat& t) { return move.pose(at + share * t + change * t * t / BigFloat(2.0)); });
+}
+
 /// The machine of `move` at another place and turned in its own axes: its rates in W are the same.
 inline oracle::Move displaced(const oracle::Move& move, const oracle::Big3& by, const oracle::Big3& axis,
                               const BigFloat& angle) {
@@ -146,6 +152,23 @@ inline oracle::Move displaced(const oracle::Move& move, const oracle::Big3& by, 
                         atan2(sine, columns[2][2]),
                         phi + atan2(columns[1][2], -columns[0][2])};
   });
+}
+
+/// The machine of `move` off by a vector, and at the time t turned by R(u, 1), with the same rates in W.
+inline oracle::Move tracked(const oracle::Move& move, const BigFloat& t, const oracle::Big3& by,
+                            const oracle::Big3& u) {
+  const oracle::Big3 none = {BigFloat(0.0), BigFloat(0.0), BigFloat(0.0)};
+  const BigFloat size = oracle::distance(u, none);
+  if (!(size > BigFloat(0.0))) return displaced(move, by, none, BigFloat(0.0));
+  const oracle::Big6 pose = move.pose(t);
+  oracle::Big3 axis = none;
+  for (std::size_t k = 0; k < 3; ++k) {
+    oracle::Big3 e = none;
+    e[k] = BigFloat(1.0);
+    const oracle::Big3 tip = oracle::place(pose, e);
+    for (std::size_t j = 0; j < 3; ++j) axis[k] += (tip[j] - pose[j]) * u[j] / size;
+  }
+  return displaced(move, by, axis, BigFloat(2.0) * atan2(size, BigFloat(1.0)));
 }
 
 inline oracle::Big3 some_vector(Operands& operands, double length) {
