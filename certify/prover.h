@@ -74,9 +74,9 @@ class Prover {
   /// One box, at the cheapest rung that decides it. Bodies are not judged.
   [[nodiscard]] BoxVerdict judge(const Segment& segment, const DyadicBox& box) const;
 
-  /// Encloses what a witness of a limit is about, at the midpoint of its box: f0 − v, f0 + v [N], d [m] or the magnitude
-  /// of a rate of a move [SI], for all times at which it is there. At the least precision at which the limit is seen to
-  /// be broken, else at the highest that works. @throws std::logic_error if there is none.
+  /// Encloses what a witness of a limit is about, at the midpoint of its box: f0 − v, f0 + v [N], d [m] or the
+  /// magnitude of a rate of a move [SI], for all times at which it is there. At the least precision at which the limit
+  /// is seen to be broken, else at the highest that works. @throws std::logic_error if there is none.
   [[nodiscard]] MpInterval witnessed_quantity(const Segment& segment, const SegmentWitness& witness) const;
 
   /// Of a segment that is not admissible because of a range: ": px is 1.7, its range is from -1.5 to 1.1 (SI: m, rad)".

@@ -40,8 +40,8 @@ namespace law_range_detail {
 template <class I>
 using Quadratic = std::array<I, 3>;
 
-/// Its polar form: linear in x and in y, symmetric, and the polynomial itself where x = y. Over [a, b] the polynomial is
-/// a mean of its values at (a, a), (a, b) and (b, b), likewise.
+/// Its polar form: linear in x and in y, symmetric, and the polynomial itself where x = y. Over [a, b] the polynomial
+/// is a mean of its values at (a, a), (a, b) and (b, b), likewise.
 template <class I>
 I polar(const Quadratic<I>& q, const I& x, const I& y) {
   const I one(1.0), x1 = one - x, y1 = one - y;

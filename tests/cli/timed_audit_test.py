@@ -214,6 +214,10 @@ class TimedAudits(InFolder):
 
     def test_constraints_are_not_asked_of_poses(self):
         case = os.path.join(CASES, "moves", "hexacrane-on-equations.yaml")
+        # Columns of the case's parameters mean the motion that the constraints imply, which is not fitted.
+        own = "t[s],px[m],py[m],pz[m],phi[rad],theta[rad]\n"
+        self.refused(own + "".join(f"{t},0.081,0.05,0.217,-2.59,0.82\n" for t in range(20)),
+                     "in a case with constraints", case=case)
         rounding = ("--timed", "--rounding", "0.6mm,0.3deg")
         said = run(TAUT, "plan", case, "--out", self.path("planned"), "--no-report")
         self.assertEqual(said.returncode, 0, said.stderr)
@@ -226,10 +230,6 @@ class TimedAudits(InFolder):
                 self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
                 self.assertIn("constraints are NOT asked of these poses", said.stdout)
                 self.assertIn("The constraints on poses that the case states", text_of(self.path("out", "report.html")))
-        # Columns of the case's parameters mean the motion that the constraints imply, which is not fitted.
-        own = "t[s],px[m],py[m],pz[m],phi[rad],theta[rad]\n"
-        self.refused(own + "".join(f"{t},0.081,0.05,0.217,-2.59,0.82\n" for t in range(20)),
-                     "in a case with constraints", case=case)
 
     def test_use_that_makes_no_sense_is_refused(self):
         table = quaternions(log())
