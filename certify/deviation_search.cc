@@ -2,7 +2,6 @@
 #include "certify/deviation_search.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <memory>
 
@@ -29,13 +28,14 @@ std::optional<MpInterval> deviated_at_mid(const Prover& prover, const Segment& s
   const MotionEnclosure<MpInterval> commanded = undisturbed_motion(model, segment, {mid, mid}, MpInterval(0.0));
   if (commanded.status != MotionEnclosure<MpInterval>::Status::kKnown) return std::nullopt;
   const auto at_mid = [](const SlopeForm<MpInterval>& x) { return x.at_mid; };
-  std::optional<Moving<MpInterval>> moving;
-  if (segment.timing != nullptr && !(moving = model.moving->at(model.model, segment, mid))) return std::nullopt;
-  const auto inertia = [&](const Matrix3<MpInterval>& r_WP) { return model.moving->inertia(r_WP, moving->rates); };
-  using Inertia = std::function<Vector6<MpInterval>(const Matrix3<MpInterval>&)>;
-  MpInterval quantity =
-      deviated_quantity(model.model, *prover.problem().tolerances, commanded.p_WP.unaryExpr(at_mid),
-                        commanded.r_WP.unaryExpr(at_mid), deviation, margin, moving ? Inertia(inertia) : Inertia());
+  InertiaAt inertia;
+  if (segment.timing != nullptr) {
+    const std::optional<Moving<MpInterval>> moving = model.moving->at(model.model, segment, mid);
+    if (!moving) return std::nullopt;
+    inertia = [&model, rates = moving->rates](const Matrix3<MpInterval>& r) { return model.moving->inertia(r, rates); };
+  }
+  MpInterval quantity = deviated_quantity(model.model, *prover.problem().tolerances, commanded.p_WP.unaryExpr(at_mid),
+                                          commanded.r_WP.unaryExpr(at_mid), deviation, margin, inertia);
   if (Faults<MpInterval>::raised()) return std::nullopt;
   return quantity;
 }

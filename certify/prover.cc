@@ -200,13 +200,23 @@ bool Prover::may_stop(const Segment& segment) const {
   return segment.timing != nullptr && problem_.time && problem_.time->stopping_time_s && !is_slowed_;
 }
 
+const Prover& Prover::run(const std::optional<Slowing>& slowing) const {
+  const auto all = extreme_slowings();
+  const auto n = slowing ? 1 + static_cast<std::size_t>(std::ranges::find(all, *slowing) - all.begin()) : 0;
+  Run& run = runs_.at(n);
+  std::call_once(run.made, [&] {
+    run.prover.reset(slowing ? new Prover(problem_, options_, slowing) : new Prover(by_law(problem_), options_));
+  });
+  return *run.prover;
+}
+
 /// What refutes the law, or a move that is slowed down in one way, refutes the one that may be.
 std::optional<SegmentProof> Prover::refute_by_slowing(const Segment& segment, double clearance,
                                                       const std::stop_token& stop) const {
-  SegmentProof at_full_speed = Prover(by_law(problem_), options_).prove(segment, clearance, stop);
+  SegmentProof at_full_speed = run({}).prove(segment, clearance, stop);
   if (at_full_speed.verdict == Verdict::kRefuted) return at_full_speed;
   for (const Slowing& slowing : extreme_slowings()) {
-    SegmentProof slowed = Prover(problem_, options_, slowing).prove(segment, clearance, stop);
+    SegmentProof slowed = run(slowing).prove(segment, clearance, stop);
     if (slowed.verdict != Verdict::kRefuted) continue;
     SegmentWitness& witness = *slowed.witness;
     const bool is_of_pose = !witness.rate && (witness.singular || witness.contact || is_length(witness.margin));
@@ -237,11 +247,7 @@ SegmentSurvey Prover::survey(const Segment& segment, const std::stop_token& stop
 }
 
 MpInterval Prover::witnessed_quantity(const Segment& segment, const SegmentWitness& witness) const {
-  if (may_stop(segment)) {
-    const Prover run =
-        witness.slowing ? Prover(problem_, options_, witness.slowing) : Prover(by_law(problem_), options_);
-    return run.witnessed_quantity(segment, witness);
-  }
+  if (may_stop(segment)) return run(witness.slowing).witnessed_quantity(segment, witness);
   if (witness.rate) return rate_at_mid(segment, witness.box, *witness.rate);
   if (!witness.deviation) return margin_at_mid(segment, witness.box, witness.margin);
   std::optional<MpInterval> quantity = deviated_at_mid(*this, segment, witness.box, witness.margin, *witness.deviation);

@@ -5,6 +5,8 @@
 // box that is not proved.
 #pragma once
 
+#include <array>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -104,6 +106,8 @@ class Prover {
 
   /// Whether it is a move of which more is claimed than that it can be run as its law says.
   [[nodiscard]] bool may_stop(const Segment& segment) const;
+  /// That it is run as its law says, or slowed down in one of extreme_slowings(); made when it is first needed.
+  [[nodiscard]] const Prover& run(const std::optional<Slowing>& slowing) const;
   [[nodiscard]] std::optional<SegmentProof> refute_by_slowing(const Segment& segment, double clearance,
                                                               const std::stop_token& stop) const;
   [[nodiscard]] MpInterval margin_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const;
@@ -117,6 +121,12 @@ class Prover {
   mutable std::once_flag sampler_made_;
   mutable std::optional<PoseSampler> sampler_;
   std::optional<BodySampler> bodies_;
+  struct Run {
+    std::once_flag made;
+    std::unique_ptr<const Prover> prover;
+  };
+  mutable std::array<Run, 1 + std::tuple_size_v<decltype(extreme_slowings())>>
+      runs_;  ///< run(): that by the law, and the others
 };
 
 }  // namespace taut

@@ -276,8 +276,8 @@ SegmentWalk::Step SegmentWalk::examine_deviations(const Task& task, const BoxVer
   }
   const Step give_up{Step::Kind::kGiveUp, verdict, {}, at(Undecided::kTolerances, verdict.worst)};
   // In a move the search takes longer than more steps do.
-  if (segment_.timing != nullptr && steps_are_few) return refine;
-  if (aim_ == ProofAim::kProve) return steps_are_few ? refine : give_up;
+  if (steps_are_few && (aim_ == ProofAim::kProve || segment_.timing != nullptr)) return refine;
+  if (aim_ == ProofAim::kProve) return give_up;
   // Once a deviation refutes the segment, only its last box is searched again: a survey states the first and the last
   // violation of a stretch, and each search is costly.
   if (deviation_refutes_ && task.box.upper() != Dyadic{1, 0}) return give_up;

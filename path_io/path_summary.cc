@@ -43,13 +43,15 @@ std::string names(const Problem& problem) {
 }  // namespace
 
 std::string law_sentence(Interpolation law, const Problem& problem) {
+  const char* const onto = problem.space.constraints.empty() ? "" : ", and from there onto the constraints";
   switch (law) {
     case Interpolation::kStraight:
       return fmt::format(
           "straight: between two waypoints {} each go from value to value at a constant rate, all at once{}",
-          names(problem), problem.space.constraints.empty() ? "" : ", and from there onto the constraints");
+          names(problem), onto);
     case Interpolation::kCubicBSpline:
-      return fmt::format("spline: {} follow a cubic B-spline of which these are the control points", names(problem));
+      return fmt::format("spline: {} follow a cubic B-spline of which these are the control points{}", names(problem),
+                         onto);
     case Interpolation::kGeodesic:
       return "geodesic: between two waypoints the platform's origin moves straight, and the platform turns about one "
              "axis, the shorter way, both at constant rates";

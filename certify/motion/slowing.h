@@ -12,6 +12,7 @@ namespace taut {
 struct Slowing {
   DecimalText speed;  ///< between 0 and 1: a share of the law's
   int change = 1;     ///< 1: speeding up; -1: braking
+  bool operator==(const Slowing&) const = default;
 };
 
 /// Nearly the corners of all at which a move may be run (docs/theory.md, "Slowing down"); each may come before and

@@ -171,8 +171,7 @@ bool is_within(const Deviation& deviation, const TolerancesText& tolerances) {
 
 MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesText& tolerances,
                              const Vector3<MpInterval>& p_WP, const Matrix3<MpInterval>& r_WP,
-                             const Deviation& deviation, MarginId margin,
-                             const std::function<Vector6<MpInterval>(const Matrix3<MpInterval>&)>& inertia) {
+                             const Deviation& deviation, MarginId margin, const InertiaAt& inertia) {
   using I = MpInterval;
   if (!is_within(deviation, tolerances)) {
     Faults<I>::raise();

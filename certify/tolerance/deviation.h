@@ -37,13 +37,15 @@ struct ProposedDeviation {
                                                                const Model<double>& model, const RigidPose& commanded,
                                                                MarginId margin, bool length_controlled, double part);
 
+/// Of a move: w_in where the platform is turned to a rotation.
+using InertiaAt = std::function<Vector6<MpInterval>(const Matrix3<MpInterval>& r_WP)>;
+
 /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) for the machine that deviates from `model` and from the
 /// pose (p, R) that is commanded undisturbed; one that is held by lengths, from where its deviation leads
 /// (length_controlled_motion.h): a fault where that is not proved. Void if a fault is raised. At working_precision().
-/// @param inertia  of a move: what inertia takes of the load where the platform is turned to a rotation
-[[nodiscard]] MpInterval deviated_quantity(
-    const Model<MpInterval>& model, const TolerancesText& tolerances, const Vector3<MpInterval>& p_WP,
-    const Matrix3<MpInterval>& r_WP, const Deviation& deviation, MarginId margin,
-    const std::function<Vector6<MpInterval>(const Matrix3<MpInterval>&)>& inertia = {});
+/// @param inertia  of a move, else none
+[[nodiscard]] MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesText& tolerances,
+                                           const Vector3<MpInterval>& p_WP, const Matrix3<MpInterval>& r_WP,
+                                           const Deviation& deviation, MarginId margin, const InertiaAt& inertia = {});
 
 }  // namespace taut

@@ -59,8 +59,7 @@ inline constexpr const char* kMoveRefutedClause =
     "acceleration, the magnitude of that of its length d_i, of the load point or of the rotation, as path and law "
     "command it, is not below the limit that the problem states for it, at every such time; where it is of power, "
     "that speed of d_i times f_i is not, for some w and w_in of one load. Where the machine deviates, it has the "
-    "velocity "
-    "and the acceleration of the platform's origin, and those of its rotation, that path and law command.";
+    "velocity and the acceleration of the platform's origin, and those of its rotation, that path and law command.";
 
 /// Follows kMoveRefutedClause where the problem states a stopping time.
 inline constexpr const char* kSlowedRefutedClause =

@@ -280,23 +280,29 @@ struct OnBox {
   }
 };
 
+/// By how much z̈ may change at most where the move is slowed down. @pre the problem states a stopping time
+Ball by_slowing(const Problem& problem, const Speed& law) {
+  return law.rate / problem.time->stopping_time.value().evaluate<MeanValueForm>({}).range();
+}
+
 /// The corners of all speeds at which the move may be run: at each time, of the square of τ' in [0, 1] and of τ''.
 std::vector<Speed> extreme_speeds(const Problem& problem, const Speed& law) {
   if (!problem.time->stopping_time) return {law};
-  const Ball by_slowing = law.rate / problem.time->stopping_time->evaluate<MeanValueForm>({}).range();
+  const Ball most = by_slowing(problem, law);
   std::vector<Speed> corners;
-  for (const Ball& change : {by_slowing, -by_slowing}) {
+  for (const Ball& change : {most, -most}) {
     corners.push_back({Ball(), change, law.fastest});
     corners.push_back({law.rate, law.acceleration + change, law.fastest});
   }
   return corners;
 }
 
-Speed slowed(const Problem& problem, const Speed& law, const Slowing& slowing) {
-  const Ball speed(slowing.speed);
-  const Ball by_slowing = law.rate / problem.time->stopping_time.value().evaluate<MeanValueForm>({}).range();
-  const Ball rate = speed * law.rate;
-  return {rate, sqr(speed) * law.acceleration + Ball(slowing.change) * by_slowing, rate};
+/// As the law says, where it is not slowed down.
+Speed speed_of(const Problem& problem, const Speed& law, const std::optional<Slowing>& slowing) {
+  if (!slowing) return law;
+  const Ball share(slowing->speed);
+  const Ball rate = share * law.rate;
+  return {rate, sqr(share) * law.acceleration + Ball(slowing->change) * by_slowing(problem, law), rate};
 }
 
 /// The frame at another pose, with the same velocities and accelerations by s: R' = [w] R, R'' = [w'] R + [w]^2 R.
@@ -409,7 +415,7 @@ Ball rate_limit(const Problem& problem, RateKind kind, std::size_t cable) {
 Moving moving(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
               const std::optional<Slowing>& slowing) {
   const OnBox on_box(machine, problem, path, k, box);
-  const AtSpeed at_speed(machine, problem, on_box, slowing ? slowed(problem, on_box.law, *slowing) : on_box.law);
+  const AtSpeed at_speed(machine, problem, on_box, speed_of(problem, on_box.law, slowing));
   Moving result = at_speed.moving();
   result.margins = at_speed.margins();
   return result;
@@ -418,8 +424,8 @@ Moving moving(const Machine& machine, const Problem& problem, const Path& path, 
 Vector6<Ball> inertia_of_deviant(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
                                  const Box& box, const std::optional<Slowing>& slowing, const Frame& pose) {
   const OnBox on_box(machine, problem, path, k, box);
-  const Speed speed = slowing ? slowed(problem, on_box.law, *slowing) : on_box.law;
-  return inertia(machine, problem, Rates(at_pose(on_box.frame, pose), speed)).inertia;
+  const Rates rates(at_pose(on_box.frame, pose), speed_of(problem, on_box.law, slowing));
+  return inertia(machine, problem, rates).inertia;
 }
 
 std::vector<Moving> moving_within_limits(const Machine& machine, const Problem& problem, const Path& path,

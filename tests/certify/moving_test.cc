@@ -259,6 +259,14 @@ TEST(Moving, MachinesThatDeviateKeepTheLimitsOfProofs) {
   }
 }
 
+/// The proof of the first segment that is not proved, and its number k; of the last one, where all are.
+SegmentProof first_unproved(const Problem& problem, const Path& path, std::size_t& k) {
+  const Prover prover(problem, {.max_bits = 256, .max_boxes = 4000, .max_multiprecision_boxes = 50});
+  SegmentProof proof = prover.prove(path.segment(0));
+  for (k = 0; proof.verdict == Verdict::kProved && k + 1 < path.segments();) proof = prover.prove(path.segment(++k));
+  return proof;
+}
+
 TEST(Moving, MovesThatMayStopKeepTheirLimitsAtEverySpeed) {
   Operands operands(43);
   std::map<std::string, int> count;
@@ -272,18 +280,10 @@ TEST(Moving, MovesThatMayStopKeepTheirLimitsAtEverySpeed) {
     const Truth middle = truth(machine, move, BigFloat(path.timing->duration_s() * 0.5));
     machine.problem.time->load_acceleration_m_s2 =
         MovingMachine::exact_text(middle.acceleration.to_double(MPFR_RNDN) * operands.uniform(1, 20) + 1e-3);
-    std::size_t k = 0;  // the first segment that is not proved
-    const auto prove = [&] {
-      const Prover prover(machine.problem, {.max_bits = 256, .max_boxes = 4000, .max_multiprecision_boxes = 50});
-      SegmentProof proof = prover.prove(path.segment(0));
-      for (k = 0; proof.verdict == Verdict::kProved && k + 1 < path.segments();) {
-        proof = prover.prove(path.segment(++k));
-      }
-      return proof;
-    };
-    const bool is_proved_by_law = prove().verdict == Verdict::kProved;
+    std::size_t k = 0;
+    const bool is_proved_by_law = first_unproved(machine.problem, path, k).verdict == Verdict::kProved;
     machine.problem.time->stopping_time_s = MovingMachine::exact_text(stopping_s);
-    const SegmentProof proof = prove();
+    const SegmentProof proof = first_unproved(machine.problem, path, k);
     const bool is_proved_slowed = proof.verdict == Verdict::kProved;
     EXPECT_LE(is_proved_slowed, is_proved_by_law) << trial;
     if (!is_proved_by_law) continue;
@@ -326,14 +326,6 @@ TEST(Moving, MachinesThatDeviateRefuteMoves) {
   for (int trial = 0; trial < kTrials; ++trial) {
     MovingMachine machine(operands);
     const Path path = some_move(operands, 0.1);
-    const auto first_unproved = [&](std::size_t& k) {
-      const Prover prover(machine.problem, {.max_bits = 256, .max_boxes = 4000, .max_multiprecision_boxes = 50});
-      SegmentProof proof = prover.prove(path.segment(0));
-      for (k = 0; proof.verdict == Verdict::kProved && k + 1 < path.segments();) {
-        proof = prover.prove(path.segment(++k));
-      }
-      return proof;
-    };
     {  // a little below the least tension of the machine as stated
       const PrecisionScope precision(oracle::kMovingBits);
       const oracle::Move move = oracle_of(path);
@@ -348,9 +340,9 @@ TEST(Moving, MachinesThatDeviateRefuteMoves) {
       for (Limits& limits : machine.problem.robot.tension_N) limits.lower = MovingMachine::exact_text(lower);
     }
     std::size_t k = 0;
-    if (first_unproved(k).verdict != Verdict::kProved) continue;
+    if (first_unproved(machine.problem, path, k).verdict != Verdict::kProved) continue;
     machine.problem.tolerances = SomeTolerances(operands, 0.01).text();
-    const SegmentProof proof = first_unproved(k);
+    const SegmentProof proof = first_unproved(machine.problem, path, k);
     ++count[proof.verdict == Verdict::kProved ? "proved" : proof.verdict == Verdict::kRefuted ? "refuted" : "open"];
     if (proof.verdict != Verdict::kRefuted) continue;
     const SegmentWitness& witness = *proof.witness;

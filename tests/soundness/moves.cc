@@ -165,8 +165,8 @@ TimeLaw random_law(const Path& path, double seconds_a_segment, bool rests, Rando
   return law;
 }
 
-As random_weights(Random& random, std::size_t count) {
-  As as{std::vector<WeightAs>(count)};
+Choice random_weights(Random& random, std::size_t count) {
+  Choice as{std::vector<WeightAs>(count)};
   for (WeightAs& weight : as.weights) {
     weight.mass = one_in(random, 4) ? uniform(random, 0, 1) : static_cast<double>(random() % 2);
     for (double& x : weight.offset) x = uniform(random, -1, 1);
@@ -294,8 +294,8 @@ class MoveJudge {
   [[nodiscard]] const Simulation<double>& approx() const { return approx_[segment_]; }
   [[nodiscard]] Deviation some_deviation() { return has_tolerances() ? random_deviation(random_) : Deviation(); }
   [[nodiscard]] bool may_stop() const { return trial_.problem.time->stopping_time_s.has_value(); }
-  [[nodiscard]] As some_choice() {
-    As as = random_weights(random_, exact_->bodies().size());
+  [[nodiscard]] Choice some_choice() {
+    Choice as = random_weights(random_, exact_->bodies().size());
     if (!may_stop() || one_in(random_, 3)) return as;
     as.share = one_in(random_, 4) ? uniform(random_, 0, 1) : static_cast<double>(random_() % 2);
     as.change = one_in(random_, 4) ? uniform(random_, -1, 1) : one_in(random_, 2) ? -1 : 1;
@@ -303,15 +303,15 @@ class MoveJudge {
   }
 
   /// What is sought to be least.
-  [[nodiscard]] double objective(double t, const Deviation& x, const As& as, std::size_t id) const {
+  [[nodiscard]] double objective(double t, const Deviation& x, const Choice& as, std::size_t id) const {
     const double value = approx().quantity(t, x, as, id);
     return is_upper(id) ? -value : value;
   }
   [[nodiscard]] BigFloat exact_objective(double t) const {
-    const BigFloat value = exact_->quantity(BigFloat(t), worst_, as_, id_);
+    const BigFloat value = exact_->quantity(BigFloat(t), worst_, choice_, id_);
     return is_upper(id_) ? -value : value;
   }
-  [[nodiscard]] Deviation worst_deviation(double t, const Deviation& x, const As& as, std::size_t id) const {
+  [[nodiscard]] Deviation worst_deviation(double t, const Deviation& x, const Choice& as, std::size_t id) const {
     return worst_deviations<1>(x, matters_, [&](const Deviation& y) { return std::array{objective(t, y, as, id)}; })[0];
   }
 
@@ -347,16 +347,16 @@ class MoveJudge {
     id_ = drawn < 9    ? random_() % (2 * kCables)
           : drawn < 10 ? 2 * kCables + random_() % (2 * kCables)
                        : kMargins + random_() % kRates;
-    as_ = some_choice();
+    choice_ = some_choice();
     for (std::size_t k = 0; k < path_.segments(); ++k) {
       if (k == segment_) continue;
-      for (const double t : times(k, 2)) include(approx_[k].quantities(t, {}, as_));
+      for (const double t : times(k, 2)) include(approx_[k].quantities(t, {}, choice_));
     }
     const std::vector<double> samples = times(segment_, 5);
     double least = HUGE_VAL, determinant = 0;
     std::size_t best = 0;
     for (std::size_t n = 0; n < samples.size(); ++n) {
-      const auto all = approx().quantities(samples[n], {}, as_);
+      const auto all = approx().quantities(samples[n], {}, choice_);
       if (!std::isfinite(all.determinant) || !(determinant * all.determinant >= 0) || all.determinant == 0) {
         return false;
       }
@@ -373,17 +373,17 @@ class MoveJudge {
     best_t_ = samples[best];
     const double from = samples[best == 0 ? 0 : best - 1], to = samples[std::min(best + 1, samples.size() - 1)];
     for (int round = 0; round < (is_exact_ ? 1 : 2); ++round) {
-      const double t = golden_section([&](double x) { return objective(x, worst_, as_, id_); }, from, to);
-      if (objective(t, worst_, as_, id_) < objective(best_t_, worst_, as_, id_)) best_t_ = t;
+      const double t = golden_section([&](double x) { return objective(x, worst_, choice_, id_); }, from, to);
+      if (objective(t, worst_, choice_, id_) < objective(best_t_, worst_, choice_, id_)) best_t_ = t;
       if (is_exact_) break;
       constexpr int kTries = 12;
       for (int n = 0; n < kTries; ++n) {
-        const As other = some_choice();
-        if (objective(best_t_, worst_, other, id_) < objective(best_t_, worst_, as_, id_)) as_ = other;
+        const Choice other = some_choice();
+        if (objective(best_t_, worst_, other, id_) < objective(best_t_, worst_, choice_, id_)) choice_ = other;
       }
       if (!has_tolerances()) continue;
-      for (int k = 0; k < 2; ++k) worst_ = worst_deviation(best_t_, worst_, as_, id_);
-      const auto all = approx().quantities(best_t_, worst_, as_);
+      for (int k = 0; k < 2; ++k) worst_ = worst_deviation(best_t_, worst_, choice_, id_);
+      const auto all = approx().quantities(best_t_, worst_, choice_);
       if (!(determinant * all.determinant > 0)) return false;
       include(all);
     }
@@ -435,7 +435,7 @@ class MoveJudge {
     decade_ = one_in(random_, 2) ? kMoveDecades - 1 - random_() % 5 : random_() % kMoveDecades;
     delta_ = range_ * std::pow(10.0, -13.0 + static_cast<double>(decade_) + uniform(random_, 0, 1));
     violated_ = one_in(random_, 2);
-    const BigFloat extremum = exact_->quantity(BigFloat(best_t_), worst_, as_, id_);
+    const BigFloat extremum = exact_->quantity(BigFloat(best_t_), worst_, choice_, id_);
     const DecimalText text = decimal(extremum + BigFloat(violated_ == is_upper(id_) ? -delta_ : delta_));
     if (is_rate(id_)) {
       if (text.starts_with('-')) return false;
@@ -453,7 +453,7 @@ class MoveJudge {
   // ---- What is said of it -------------------------------------------------------------------------------------------
 
   /// The least margin in floating point, in parts of its range; where it is little, the point is judged.
-  double look_at(double t, const Deviation& x, const As& as, std::size_t& least_id) {
+  double look_at(double t, const Deviation& x, const Choice& as, std::size_t& least_id) {
     constexpr double kLittle = 1e-5;
     const auto all = approx().quantities(t, x, as);
     double least = HUGE_VAL;
@@ -469,7 +469,7 @@ class MoveJudge {
     return least;
   }
 
-  void require_feasible(double t, const Deviation& x, const As& as, const char* where) {
+  void require_feasible(double t, const Deviation& x, const Choice& as, const char* where) {
     const BigFloat time(t), s = exact_->place(time);
     if (s < BigFloat(0.0) || s > BigFloat(1.0)) return;  // by rounding at an end
     ++tally_.judged;
@@ -492,7 +492,7 @@ class MoveJudge {
     double least = HUGE_VAL, least_t = best_t_;
     std::size_t id = id_;
     Deviation x = worst_;
-    As as = as_;
+    Choice as = choice_;
     for (int k = 0; k < kTimes; ++k) {
       ++tally_.looked_at;
       // Every fourth is near t*.
@@ -501,17 +501,17 @@ class MoveJudge {
                                   : uniform(random_, begin_, end_);
       if (!(t > begin_ && t < end_)) continue;
       const Deviation other = some_deviation();
-      const As weights = some_choice();
+      const Choice choice = some_choice();
       std::size_t here = id;
-      const double margin = look_at(t, other, weights, here);
+      const double margin = look_at(t, other, choice, here);
       if (margin < least) {
         least = margin;
         least_t = t;
         id = here;
         x = other;
-        as = weights;
+        as = choice;
       }
-      if (k == 1) require_feasible(t, other, weights, "at a random time");
+      if (k == 1) require_feasible(t, other, choice, "at a random time");
     }
     // Downhill from the least of them, in time and deviation.
     for (int round = 0; round < 2; ++round) {
@@ -550,7 +550,7 @@ class MoveJudge {
     }
     constexpr int kHalvings = 2 * static_cast<int>(kBits);
     const BigFloat s = number_of(witness.box.mid());
-    As as;
+    Choice as;
     if (const auto& slowing = witness.slowing) {
       if (!may_stop()) breach("refuted where it is slowed down, which it may not be");
       as.share = number<double>(slowing->speed);  // exact
@@ -579,11 +579,11 @@ class MoveJudge {
 
   /// All quantities at t*, with an error below a tenth of what is tolerated.
   void hold_to_400_bits() {
-    const auto mine = exact_->quantities(BigFloat(best_t_), worst_, as_);
+    const auto mine = exact_->quantities(BigFloat(best_t_), worst_, choice_);
     const PrecisionScope precision(400);
     const Simulation<BigFloat> finer(segments_[segment_], *path_.timing, segment_, options_.mass_error,
                                      oracle::big("1e-40"));
-    const auto all = finer.quantities(BigFloat(best_t_), worst_, as_);
+    const auto all = finer.quantities(BigFloat(best_t_), worst_, choice_);
     for (std::size_t id = 0; id < kQuantities; ++id) {
       ++tally_.compared;
       if (abs(all.value[id] - mine.value[id]) > BigFloat(0.1) * tolerance(id)) {
@@ -686,7 +686,7 @@ class MoveJudge {
   std::size_t id_ = 0;
   double begin_ = 0, end_ = 0, best_t_ = 0;
   Deviation worst_;
-  As as_;
+  Choice choice_;
   bool is_exact_ = false, is_for_kernel_ = false, violated_ = false, positive_ = false;
   std::size_t decade_ = 0;
   double delta_ = 0, range_ = 0;
@@ -712,14 +712,12 @@ void print_summary(const MoveTally& tally, double seconds) {
   const long trials = tally.trials;
   fmt::print(
       "\n{} segments ({} with machines that deviate, {} with masses in ranges, {} that may be slowed down, {} "
-      "skipped): "
-      "{} proved, {} refuted, {} undecided\n",
+      "skipped): {} proved, {} refuted, {} undecided\n",
       trials, tally.deviating.load(), tally.ranges.load(), tally.slowed.load(), tally.skipped.load(),
       tally.proved.load(), tally.refuted.load(), tally.undecided.load());
   fmt::print(
       "refuted by a tension {}, a rate {}, a length {}, a singular pose {}; {} of them where it is slowed down, {} by "
-      "a "
-      "deviation\n",
+      "a deviation\n",
       tally.refuted_tension.load(), tally.refuted_too_fast.load(), tally.refuted_length.load(),
       tally.refuted_singular.load(), tally.refuted_slowed.load(), tally.refuted_deviating.load());
   fmt::print(

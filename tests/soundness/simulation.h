@@ -89,7 +89,7 @@ struct WeightAs {
   Vec<double> offset{};  ///< in the unit ball, of the tolerance
 };
 /// What may be chosen while a move is run.
-struct As {
+struct Choice {
   std::vector<WeightAs> weights;
   double share = 1, change = 0;  ///< it is slowed down: τ', and τ'' times the stopping time
 };
@@ -119,7 +119,7 @@ class Bodies {
   [[nodiscard]] std::size_t size() const { return bodies_.size(); }
 
   /// Of the same masses, centres of gravity and inertias: a corner of a box is at ± side/√12.
-  [[nodiscard]] std::vector<Particle<S>> particles(const As& as) const {
+  [[nodiscard]] std::vector<Particle<S>> particles(const Choice& as) const {
     std::vector<Particle<S>> result;
     for (std::size_t n = 0; n < bodies_.size(); ++n) {
       const Body& body = bodies_[n];
@@ -245,7 +245,7 @@ class Simulation {
   [[nodiscard]] S place(const S& t) const { return law_at(law_, t) - segment_; }
   [[nodiscard]] S time(const S& s, int halvings) const { return time_of(law_, S(segment_ + s), halvings); }
 
-  [[nodiscard]] Instant<S> at(const S& t, const As& as) const {
+  [[nodiscard]] Instant<S> at(const S& t, const Choice& as) const {
     return by_law(t).slowed(S(as.share), S(as.change) * slowing_);
   }
   [[nodiscard]] Instant<S> by_law(const S& t) const {
@@ -274,13 +274,13 @@ class Simulation {
   }
 
   /// The machine and pose as they are, with what the load's mass asks for taken from the wrench.
-  [[nodiscard]] MachineAt<S> machine_at(const Instant<S>& commanded, const Deviation& x, const As& as) const {
+  [[nodiscard]] MachineAt<S> machine_at(const Instant<S>& commanded, const Deviation& x, const Choice& as) const {
     RigidPose<S> pose = commanded.pose;
     pose.p = pose.p + scaled(tolerances_.position, x.position);
     pose.r = turn(scaled(tolerances_.turn, x.turn)) * pose.r;
     return with_inertia({deviate(machine_, tolerances_, x), pose}, commanded, as);
   }
-  [[nodiscard]] MachineAt<S> with_inertia(MachineAt<S> at, const Instant<S>& commanded, const As& as) const {
+  [[nodiscard]] MachineAt<S> with_inertia(MachineAt<S> at, const Instant<S>& commanded, const Choice& as) const {
     const Instant<S> x = commanded.moved_to(at.pose);
     for (const Particle<S>& particle : bodies_.particles(as)) {
       const Vec<S> force = particle.mass * (x.p2 + x.r2 * particle.at);
@@ -306,7 +306,7 @@ class Simulation {
     const auto i = static_cast<std::size_t>(rate_id(id).cable);
     return magnitude(commanded.speed[i]) * magnitude(tension_range(at.machine, at.pose, i).high);
   }
-  [[nodiscard]] S quantity(const S& t, const Deviation& x, const As& as, std::size_t id) const {
+  [[nodiscard]] S quantity(const S& t, const Deviation& x, const Choice& as, std::size_t id) const {
     const Instant<S> commanded = this->at(t, as);
     return quantity(commanded, machine_at(commanded, x, as), id);
   }
@@ -315,7 +315,7 @@ class Simulation {
     std::array<S, kQuantities> value;
     S determinant;
   };
-  [[nodiscard]] All quantities(const S& t, const Deviation& x, const As& as) const {
+  [[nodiscard]] All quantities(const S& t, const Deviation& x, const Choice& as) const {
     const Instant<S> commanded = this->at(t, as);
     const MachineAt<S> at = machine_at(commanded, x, as);
     const StaticsAt<S> statics = campaign::statics(at.machine, at.pose);
