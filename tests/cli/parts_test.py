@@ -44,6 +44,10 @@ def without_times(text):
     return found
 
 
+MAPS = {}  # what one process makes, by its arguments: several tests compare with it
+SLICE_PARTS = {}  # the content of each of its files
+
+
 class Parts(InFolder):
     def done(self, *arguments):
         said = run(TAUT, "map", *arguments)
@@ -63,6 +67,25 @@ class Parts(InFolder):
         names = ("map.svg", "g.npy", "g.npy.json", "p.json") if is_flat else ("map.html", "g.npy", "g.npy.json")
         return without_times(said.stdout), [content(os.path.join(folder, name)) for name in names]
 
+    def one(self, *arguments):
+        """What one process makes, which is computed once."""
+        if arguments not in MAPS:
+            MAPS[arguments] = self.made("one" + "".join(arguments[1:]), *arguments)
+        return MAPS[arguments]
+
+    def slice_parts(self):
+        """A folder of all parts of SLICE, which are computed once."""
+        parts = self.path("parts")
+        if not SLICE_PARTS:
+            self.shards(parts, 1, *SLICE)
+            SLICE_PARTS.update({name: content(os.path.join(parts, name)) for name in os.listdir(parts)})
+            return parts
+        os.makedirs(parts)
+        for name, text in SLICE_PARTS.items():
+            with open(os.path.join(parts, name), "wb") as file:
+                file.write(text)
+        return parts
+
     def shards(self, parts, count, *arguments):
         for k in range(1, count + 1):
             self.done(*arguments, "--shard", f"{k}/{count}", "--parts", parts)
@@ -77,7 +100,7 @@ class Parts(InFolder):
 
 class Shards(Parts):
     def test_make_the_map_of_one_process_bit_for_bit(self):
-        one = self.made("one", *SLICE, "--undecided", "1e-9")
+        one = self.one(*SLICE, "--undecided", "1e-9")
         self.assertEqual(one[0]["end"], "width")
         for count in (1, 3):
             parts = self.path(f"parts{count}")
@@ -85,7 +108,7 @@ class Shards(Parts):
             self.assertEqual(self.made(f"merged{count}", *SLICE, "--merge", "--parts", parts), one)
         # To a share, too: one process stops in the middle of a level.
         self.assertEqual(self.made("share", *SLICE, "--merge", "--parts", parts, "--undecided", "45%"),
-                         self.made("one_share", *SLICE, "--undecided", "45%"))
+                         self.one(*SLICE, "--undecided", "45%"))
 
     def test_compute_a_part_once(self):
         parts = self.path("parts")
@@ -102,8 +125,7 @@ class Shards(Parts):
                          r"Shard 2/2: \d+ of \d+ parts in .*, 0 of them computed now, in")
 
     def test_refuse_files_by_name_that_are_not_these_parts(self):
-        parts, spare = self.path("parts"), self.path("spare")
-        self.shards(parts, 1, *SLICE)
+        parts, spare = self.slice_parts(), self.path("spare")
         names = sorted(os.listdir(parts))
         self.assertGreater(len(names), 20)
         self.assertEqual(names[7], "000007.taut-part")
@@ -145,8 +167,7 @@ class Shards(Parts):
         self.assertEqual(run(TAUT, "map", *SLICE, "--merge", "--parts", parts).returncode, 0)
 
     def test_no_bit_of_a_head_may_be_another(self):
-        parts = self.path("parts")
-        self.shards(parts, 1, *SLICE)
+        parts = self.slice_parts()
         part = os.path.join(parts, "000003.taut-part")
         good = content(part)
         for at in range(0, good.index(b"\n") + 1, 9):
@@ -155,8 +176,7 @@ class Shards(Parts):
             change(part, lambda text: good)
 
     def test_refuse_parts_of_other_work(self):
-        parts = self.path("parts")
-        self.shards(parts, 1, *SLICE)
+        parts = self.slice_parts()
         other = self.write("other.yaml", re.sub(r"tension: \[[\d.]+", "tension: [0.051", text_of(ROBOT1)))
         self.assertNotEqual(text_of(other), text_of(ROBOT1))
         said = run(TAUT, "map", other, "--cell", "0.004", "--merge", "--parts", parts)
@@ -185,7 +205,7 @@ class Shards(Parts):
 
 class Kept(Parts):
     def test_parts_that_are_kept_change_nothing(self):
-        one = self.made("one", *SLICE, "--undecided", "60%")
+        one = self.one(*SLICE, "--undecided", "60%")
         parts = self.path("parts")
         self.assertEqual(self.made("kept", *SLICE, "--undecided", "60%", "--parts", parts), one)
         self.assertEqual(self.made("again", *SLICE, "--undecided", "60%", "--parts", parts), one)
@@ -194,15 +214,15 @@ class Kept(Parts):
         self.refused(parts, ["got a part in which not all cells are judged"], "--undecided", "40%")
         # What is known already is where it goes on.
         self.assertEqual(self.made("finer", *SLICE, "--undecided", "40%", "--parts", parts),
-                         self.made("finer_one", *SLICE, "--undecided", "40%"))
+                         self.one(*SLICE, "--undecided", "40%"))
 
     def test_three_coordinates(self):
         parts = self.path("parts")
-        self.assertEqual(self.made("kept", *SPHERE, "--parts", parts), self.made("one", *SPHERE))
+        self.assertEqual(self.made("kept", *SPHERE, "--parts", parts), self.one(*SPHERE))
 
     def test_a_run_that_was_killed_goes_on(self):
         parts = self.path("parts")
-        one = self.made("one", *LONG)
+        one = self.one(*LONG)
         with subprocess.Popen([TAUT, "map", *LONG, "--parts", parts], stdout=subprocess.DEVNULL) as process:
             while process.poll() is None and not (os.path.isdir(parts) and len(os.listdir(parts)) > 30):
                 time.sleep(0.002)
@@ -223,13 +243,13 @@ class UnderMpi(Parts):
 
     def test_any_number_of_ranks_makes_the_map_of_one_process(self):
         arguments = (*SLICE, "--undecided", "45%")
-        one = self.made("one", *arguments)
+        one = self.one(*arguments)
         for count in (1, 2, 3):
             self.assertEqual(self.made(f"ranks{count}", *arguments, command=("mpirun", "-n", str(count)),
                                        env=self.environment), one)
 
     def test_a_rank_that_dies_is_reported_and_its_parts_are_dealt_again(self):
-        one = self.made("one", *LONGER)
+        one = self.one(*LONGER)
         out = self.path("ranks")
         with subprocess.Popen(["mpirun", "--enable-recovery", "-n", "3", TAUT, "map", *LONGER, "--json", "--out",
                                out], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
@@ -242,7 +262,7 @@ class UnderMpi(Parts):
 
     def test_a_minute_of_silence_is_taken_for_death(self):
         """A rank that hangs, and rank 0 that dies: both take a minute, so that they are tried at once."""
-        one = self.made("one", *LONGER)
+        one = self.one(*LONGER)
         jobs = {}
         for name in ("hung", "headless"):
             with open(self.path(name + ".out"), "w") as out, open(self.path(name + ".err"), "w") as err:
@@ -281,7 +301,7 @@ class UnderMpi(Parts):
 
     def test_a_job_that_was_killed_goes_on(self):
         parts = self.path("parts")
-        one = self.made("one", *LONG)
+        one = self.one(*LONG)
         with subprocess.Popen(["mpirun", "-n", "2", TAUT, "map", *LONG, "--parts", parts],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=self.environment) as process:
             while process.poll() is None and not (os.path.isdir(parts) and len(os.listdir(parts)) > 30):
