@@ -29,33 +29,78 @@ Definition fraction (q : Q) : interval := div (integer (Qnum q)) (integer (Zpos 
 
 (** Strict tests; an empty interval or one that is not a number fails both. *)
 Definition above0 (x : interval) : bool := match I.sign_strict x with Xgt => true | _ => false end.
+Definition apart0 (x : interval) : bool := match I.sign_strict x with Xgt | Xlt => true | _ => false end.
 Definition below (x y : interval) : bool := above0 (sub y x).
 
-(** ** Forms: q(m), then q(m) and q(s), then the slopes from m to s *)
+Definition symmetric (x : interval) : interval := I.join (I.neg x) x.
+Definition norm_of (v : vec interval) : interval :=
+  I.sqrt prec (add (add (I.sqr prec (vx v)) (I.sqr prec (vy v))) (I.sqr prec (vz v))).
 
-Record form := Form { mid : interval; over : interval; slope : interval }.
+(** ** Forms: q(m), then both that and q'(s) of a machine that deviates, then the slopes from one to the other: along s,
+    and along how far the machine deviates in each ball; none where it is 0 *)
 
-Definition constant (x : interval) : form := Form x x zero.
-Definition f_neg f := Form (I.neg (mid f)) (I.neg (over f)) (I.neg (slope f)).
-Definition f_add f g := Form (add (mid f) (mid g)) (add (over f) (over g)) (add (slope f) (slope g)).
-Definition f_sub f g := Form (sub (mid f) (mid g)) (sub (over f) (over g)) (sub (slope f) (slope g)).
+Definition block : Type := option (vec interval).
+Record form := Form { mid : interval; over : interval; slope : interval; slopes : list block }.
+
+Definition v_map (f : interval -> interval) (v : vec interval) := Vec (f (vx v)) (f (vy v)) (f (vz v)).
+Definition b_map (f : interval -> interval) : list block -> list block := map (option_map (v_map f)).
+Definition b_plus (u v : block) : block :=
+  match u, v with
+  | None, v => v
+  | u, None => u
+  | Some u, Some v => Some (Vec (add (vx u) (vx v)) (add (vy u) (vy v)) (add (vz u) (vz v)))
+  end.
+Fixpoint b_add (k l : list block) : list block :=
+  match k, l with [], l => l | k, [] => k | u :: k, v :: l => b_plus u v :: b_add k l end.
+Definition b_scale (c : interval) : list block -> list block := b_map (fun x => mul x c).
+(** The slopes v in one ball. *)
+Definition b_only (ball : nat) (v : vec interval) : list block := repeat None ball ++ [Some v].
+
+Definition nothing : form := Form I.nai I.nai I.nai (repeat (Some (Vec I.nai I.nai I.nai)) balls).
+Definition constant (x : interval) : form := Form x x zero [].
+Definition f_neg f := Form (I.neg (mid f)) (I.neg (over f)) (I.neg (slope f)) (b_map I.neg (slopes f)).
+Definition f_add f g :=
+  Form (add (mid f) (mid g)) (add (over f) (over g)) (add (slope f) (slope g)) (b_add (slopes f) (slopes g)).
+Definition f_sub f g :=
+  Form (sub (mid f) (mid g)) (sub (over f) (over g)) (sub (slope f) (slope g))
+    (b_add (slopes f) (b_map I.neg (slopes g))).
 Definition f_mul f g := Form (mul (mid f) (mid g)) (mul (over f) (over g))
-  (add (mul (slope f) (over g)) (mul (mid f) (slope g))).
+  (add (mul (slope f) (over g)) (mul (mid f) (slope g)))
+  (b_add (b_scale (over g) (slopes f)) (b_scale (mid f) (slopes g))).
+(** Division by zero and roots of negative numbers have values in Coq, and no slopes: nothing is known where they might
+    be. *)
 Definition f_div f g :=
-  let q := div (mid f) (mid g) in
-  Form q (div (over f) (over g)) (div (sub (slope f) (mul q (slope g))) (over g)).
-(** Coq's square root of a negative number is 0, which has no slope: nothing is known where it might be one. *)
+  if apart0 (mid g) && apart0 (over g) then
+    let q := div (mid f) (mid g) in
+    Form q (div (over f) (over g)) (div (sub (slope f) (mul q (slope g))) (over g))
+      (b_map (fun x => div x (over g)) (b_add (slopes f) (b_map I.neg (b_scale q (slopes g)))))
+  else nothing.
 Definition f_sqrt f :=
   if above0 (mid f) && above0 (over f) then
     let a := I.sqrt prec (mid f) in
     let b := I.sqrt prec (over f) in
-    Form a b (div (slope f) (add a b))
-  else Form I.nai I.nai I.nai.
-Definition f_sin f := Form (I.sin prec (mid f)) (I.sin prec (over f)) (mul (I.cos prec (over f)) (slope f)).
-Definition f_cos f := Form (I.cos prec (mid f)) (I.cos prec (over f)) (I.neg (mul (I.sin prec (over f)) (slope f))).
+    Form a b (div (slope f) (add a b)) (b_map (fun x => div x (add a b)) (slopes f))
+  else nothing.
+Definition f_sin f :=
+  let c := I.cos prec (over f) in
+  Form (I.sin prec (mid f)) (I.sin prec (over f)) (mul c (slope f)) (b_scale c (slopes f)).
+Definition f_cos f :=
+  let s := I.neg (I.sin prec (over f)) in
+  Form (I.cos prec (mid f)) (I.cos prec (over f)) (mul s (slope f)) (b_scale s (slopes f)).
 
-Variable offset : interval.       (* s - m *)
-Definition tight f := Form (mid f) (I.meet (over f) (add (mid f) (mul (slope f) offset))) (slope f).
+Variable reach : interval * list interval.       (* s - m, and the balls' radii *)
+
+(** By how much deviations within these radii change what has these slopes. *)
+Fixpoint b_change (radii : list interval) (l : list block) : interval :=
+  match l, radii with
+  | [], _ => zero
+  | _, [] => I.nai
+  | None :: l, _ :: radii => b_change radii l
+  | Some v :: l, r :: radii => add (symmetric (mul r (norm_of v))) (b_change radii l)
+  end.
+Definition tight f :=
+  Form (mid f) (I.meet (over f) (add (mid f) (add (mul (slope f) (fst reach)) (b_change (snd reach) (slopes f)))))
+    (slope f) (slopes f).
 
 (** ** Poses *)
 
@@ -74,6 +119,9 @@ Fixpoint eval (p : nat -> form) (e : expr) : form :=
   | Cos e => f_cos (eval p e)
   end.
 
+(** By how much a platform may be turned. *)
+Definition angle_of (m : machine) : interval := I.abs (mid (eval (fun _ => constant zero) (of_orientation (tolerance m)))).
+
 Definition f_rot_x c s v :=
   Vec (vx v) (f_sub (f_mul c (vy v)) (f_mul s (vz v))) (f_add (f_mul s (vy v)) (f_mul c (vz v))).
 Definition f_rot_y c s v :=
@@ -90,7 +138,25 @@ Definition v_cross u v := Vec
   (f_sub (f_mul (vx u) (vy v)) (f_mul (vy u) (vx v))).
 Definition v_rational (v : vec Q) := let k q := constant (fraction q) in Vec (k (vx v)) (k (vy v)) (k (vz v)).
 
-Definition v_rational_difference (u v : vec Q) := v_sub (v_rational u) (v_rational v).
+(** A point somewhere in a ball of this radius around V. *)
+Definition off_by (ball : nat) (r : interval) (unit : vec interval) : form :=
+  Form zero (symmetric r) zero (b_only ball unit).
+Definition v_within (ball : nat) (q : Q) (v : vec form) : vec form :=
+  if Qeq_bool q 0 then v
+  else
+    let by_unit := off_by ball (fraction q) in
+    Vec (f_add (vx v) (by_unit (Vec one zero zero))) (f_add (vy v) (by_unit (Vec zero one zero)))
+        (f_add (vz v) (by_unit (Vec zero zero one))).
+
+(** The image of V under a turn by no more than e, about any axis: v + w × (v + d), with w in the ball of turns. *)
+Definition v_turned (e : interval) (v : vec form) : vec form :=
+  let change := symmetric (mul e (norm_of (Vec (over (vx v)) (over (vy v)) (over (vz v))))) in
+  let near f := add (over f) change in
+  let moved f unit := Form (mid f) (near f) (slope f) (b_add (slopes f) (b_only 1 unit)) in
+  let x := near (vx v) in let y := near (vy v) in let z := near (vz v) in
+  Vec (moved (vx v) (Vec zero z (I.neg y))) (moved (vy v) (Vec (I.neg z) zero x))
+      (moved (vz v) (Vec y (I.neg x) zero)).
+Definition is_zero_number (e : expr) : bool := match e with Number q => Qeq_bool q 0 | _ => false end.
 
 (** The images of the unit vectors. *)
 Definition rotation (a : angles) (p : nat -> form) : vec (vec form) :=
@@ -139,20 +205,20 @@ Definition is_diagonal (shape : six (six Q)) : bool :=
   every (zip6 (fun row unit => every (zip6 (fun e d =>
     if Z.eqb d 0 then Qeq_bool e 0 else Z.ltb 0 (Qnum e)) row unit)) shape units).
 Definition in_scope (l : list item) : bool :=
-  forallb (fun i => match i with Ellipsoid _ shape => is_diagonal shape | _ => true end) l.
+  forallb (fun i => match i with Ellipsoid _ _ shape => is_diagonal shape | _ => true end) l.
 
-Definition symmetric (x : interval) : interval := I.join (I.neg x) x.
 Definition range (f : form) : interval := over (tight f).
-Definition size (v : vec form) : interval :=
-  I.sqrt prec (add (add (I.sqr prec (range (vx v))) (I.sqr prec (range (vy v)))) (I.sqr prec (range (vz v)))).
+Definition size (v : vec form) : interval := norm_of (Vec (range (vx v)) (range (vy v)) (range (vz v))).
 Definition v_dot u v := f_add (f_add (f_mul (vx u) (vx v)) (f_mul (vy u) (vy v))) (f_mul (vz u) (vz v)).
 
 Definition part : Type := form * interval.
 Definition only (x : interval) : part := (constant zero, x).
 
-Definition ellipsoid_part (c : six interval) (center : six Q) (shape : six (six Q)) : part :=
-  (constant (sum (zip6 (fun c q => mul c (fraction q)) c center)),
-   symmetric (I.sqrt prec (sum (zip6 (fun c q => div (I.sqr prec c) (fraction q)) c (diagonal shape))))).
+Definition along (c : six interval) (w : six Q) : interval := sum (zip6 (fun c q => mul c (fraction q)) c w).
+Definition ellipsoid_part (c : six interval) (center shift : six Q) (shape : six (six Q)) : part :=
+  (constant (along c center),
+   symmetric (add (I.abs (along c shift))
+     (I.sqrt prec (sum (zip6 (fun c q => div (I.sqr prec c) (fraction q)) c (diagonal shape)))))).
 
 (** Of numbers from [lower] to [upper] times what f encloses. *)
 Definition middle (lower upper : Q) : interval := fraction ((lower + upper) * (1 # 2)).
@@ -176,7 +242,8 @@ Section Load.
 
 Variables (R : vec (vec form)) (m : machine).
 
-Definition arm_form (point : vec Q) : vec form := v_tight (turned R (v_rational_difference point (load_point m))).
+Definition load_point_form : vec form := v_within 2 (of_load_point (tolerance m)) (v_rational (load_point m)).
+Definition arm_form (point : vec form) : vec form := v_tight (turned R (v_sub point load_point_form)).
 Definition row_form (c : six interval) : vec form * vec form :=
   (Vec (constant (at1 c)) (constant (at2 c)) (constant (at3 c)),
    Vec (constant (at4 c)) (constant (at5 c)) (constant (at6 c))).
@@ -186,7 +253,7 @@ Definition seen_form (a : axes) (h : vec form) : vec form :=
 
 Definition weight_part (y : vec form * vec form) (lower upper : Q) (gravity point : vec Q) (tolerance : Q) : part :=
   let g := v_rational gravity in
-  let p := multiples lower upper (v_dot (covector_form y (arm_form point)) g) in
+  let p := multiples lower upper (v_dot (covector_form y (arm_form (v_rational point))) g) in
   let most := add (I.abs (middle lower upper)) (half_range lower upper) in
   (fst p, symmetric (add (snd p) (mul most (mul (fraction tolerance) (size (v_cross g (snd y))))))).
 
@@ -205,12 +272,12 @@ Definition cases_part (h k : vec form) (l : list (vec Q * vec Q)) : part :=
 Definition item_part (c : six interval) (i : item) : part :=
   let y := row_form c in
   match i with
-  | Ellipsoid center shape => ellipsoid_part c center shape
+  | Ellipsoid center shift shape => ellipsoid_part c center shift shape
   | Weight lower upper gravity point tolerance => weight_part y lower upper gravity point tolerance
-  | Force set a point => vectors_part set (seen_form a (covector_form y (arm_form point)))
+  | Force set a point => vectors_part set (seen_form a (covector_form y (arm_form (v_rational point))))
   | Moment set a => vectors_part set (seen_form a (snd y))
   | LoadCases cases a point =>
-      cases_part (seen_form a (covector_form y (arm_form point))) (seen_form a (snd y)) cases
+      cases_part (seen_form a (covector_form y (arm_form (v_rational point)))) (seen_form a (snd y)) cases
   end.
 Definition load_part (c : six interval) (l : list item) : part :=
   fold_right (fun i t => let p := item_part c i in (f_add (fst p) (fst t), add (snd p) (snd t))) (only zero) l.
@@ -223,12 +290,15 @@ Definition strictly (limits : Q * Q) (margin : Q) (x : interval) : bool :=
   below (fraction (fst limits + margin)) x && below x (fraction (snd limits - margin)).
 
 (** The columns of D: a vector of force, and of moment about the load point. *)
-Definition column_form (R : vec (vec form)) (P : vec form) (m : machine) (c : cable) : six form :=
-  let u := v_rational (platform c) in
-  let d := v_tight (v_sub (v_add P (turned R u)) (v_rational (base c))) in
-  let k := v_cross (arm_form R m (platform c)) d in
+Definition column_form (R : vec (vec form)) (P : vec form) (m : machine) (i : nat) (c : cable) (t : Q * Q) : six form :=
+  let u := v_within (4 + 2 * i) (snd t) (v_rational (platform c)) in
+  let d := v_tight (v_sub (v_add P (turned R u)) (v_within (3 + 2 * i) (fst t) (v_rational (base c)))) in
+  let k := v_cross (arm_form R m u) d in
   Six (vx d) (vy d) (vz d) (vx k) (vy k) (vz k).
-Definition length_range (d : six form) : interval := size (Vec (at1 d) (at2 d) (at3 d)).
+Definition column_forms (R : vec (vec form)) (P : vec form) (m : machine) : six (six form) :=
+  zip6 (fun f t => f t) (zip6 (column_form R P m) (Six 0 1 2 3 4 5)%nat (cables m)) (of_anchors (tolerance m)).
+Definition length_range (d : six form) : interval :=
+  let v := Vec (at1 d) (at2 d) (at3 d) in range (f_sqrt (v_dot v v)).
 
 (** C D, its difference from the unit matrix, and what C makes of what is left of the load. *)
 Definition product (C : six (six interval)) (columns : six (six form)) : six (six form) :=
@@ -257,10 +327,18 @@ Definition decide (m : machine) (tension_margin length_margin : Q) (lengths x0 :
 
 Definition number (scale : positive) (z : Z) : interval := fraction (z # Pos.pow 2 scale).
 
-Definition check_pose (m : machine) (tension_margin length_margin : Q) (b : box) (p : nat -> form) : bool :=
+Definition orientation_form (m : machine) (p : nat -> form) : vec (vec form) :=
   let R := rotation (pose_angles m) p in
-  let P := Vec (eval p (vx (pose_position m))) (eval p (vy (pose_position m))) (eval p (vz (pose_position m))) in
-  let columns := map6 (column_form R P m) (cables m) in
+  let by_angle := v_turned (angle_of m) in
+  if is_zero_number (of_orientation (tolerance m)) then R else Vec (by_angle (vx R)) (by_angle (vy R)) (by_angle (vz R)).
+Definition position_form (m : machine) (p : nat -> form) : vec form :=
+  v_within 0 (of_position (tolerance m))
+    (Vec (eval p (vx (pose_position m))) (eval p (vy (pose_position m))) (eval p (vz (pose_position m)))).
+
+Definition check_pose (m : machine) (tension_margin length_margin : Q) (b : box) (p : nat -> form) : bool :=
+  let R := orientation_form m p in
+  let P := position_form m p in
+  let columns := column_forms R P m in
   let C := map6 (map6 (number (scale b))) (inverse b) in
   let x0 := map6 (number (scale b)) (densities b) in
   let CD := product C columns in
@@ -268,6 +346,16 @@ Definition check_pose (m : machine) (tension_margin length_margin : Q) (b : box)
     (rest_ranges R m C CD x0).
 
 End Precision.
+
+(** The balls in which a machine deviates. *)
+Definition radii (prec : F.precision) (m : machine) : list interval :=
+  let t := tolerance m in
+  let r := fraction prec in
+  let anchors_of q l := r (fst q) :: r (snd q) :: l in
+  let a := of_anchors t in
+  r (of_position t) :: angle_of prec m :: r (of_load_point t) ::
+    anchors_of (at1 a) (anchors_of (at2 a) (anchors_of (at3 a) (anchors_of (at4 a) (anchors_of (at5 a)
+      (anchors_of (at6 a) []))))).
 
 Definition from_to (prec : F.precision) (l r : Q) : interval := I.join (fraction prec l) (fraction prec r).
 
@@ -281,7 +369,7 @@ Definition point (prec : F.precision) (u : waypoint) (i : nat) : interval :=
 Definition line_form (prec : F.precision) (v w : waypoint) : motion_form := fun m S i =>
   let a := point prec v i in
   let k := sub prec (point prec w i) a in
-  Form (add prec a (mul prec m k)) (add prec a (mul prec S k)) k.
+  Form (add prec a (mul prec m k)) (add prec a (mul prec S k)) k [].
 
 (** By the differences of control points, in powers of s. *)
 Definition spline_form (prec : F.precision) (a b c d : waypoint) : motion_form := fun m S i =>
@@ -290,7 +378,7 @@ Definition spline_form (prec : F.precision) (a b c d : waypoint) : motion_form :
   let f := sub prec (point prec c i) at_b in
   let g := sub prec (point prec d i) (point prec c i) in
   let part x n := constant prec (div prec x (integer prec n)) in
-  let s := Form m S (one prec) in
+  let s := Form m S (one prec) [] in
   let times_s := f_mul prec s in
   f_add prec (constant prec (add prec at_b (div prec (sub prec f e) (integer prec 6%Z))))
     (times_s (f_add prec (part (add prec e f) 2%Z) (times_s (f_add prec (part (sub prec f e) 2%Z)
@@ -312,7 +400,7 @@ Definition check_box (prec : F.precision) (c : certificate) (q : motion_form) (s
   let m := fraction prec middle in
   let S := I.join (from_to prec start (upto b)) m in
   Qle_bool start (upto b) &&
-  check_pose prec (sub prec S m) (subject c) (tension_margin c) (length_margin c) b (q m S).
+  check_pose prec (sub prec S m, radii prec (subject c)) (subject c) (tension_margin c) (length_margin c) b (q m S).
 
 (** Boxes from [start] have to reach 1; no box is no proof. *)
 Fixpoint check_boxes (prec : F.precision) (c : certificate) (q : motion_form) (start : Q) (l : list box) : bool :=
@@ -332,6 +420,7 @@ Fixpoint check_motions (prec : F.precision) (c : certificate) (l : list motion_f
 Definition check (c : certificate) : bool :=
   let prec := F.PtoP (bits c) in
   let l := motions prec (motion c) (path c) in
-  match l with [] => false | _ => true end && in_scope (load (subject c)) && check_motions prec c l (boxes c).
+  match l with [] => false | _ => true end && in_scope (load (subject c)) &&
+  below prec (angle_of prec (subject c)) (one prec) && check_motions prec c l (boxes c).
 
 End Checker.

@@ -18,7 +18,7 @@ Definition robot : machine := {|
     (Cable (Vec 0.1905256 (-0.11) 0) (Vec 0.1125833 0.065 0) (0.05, 0.5) (0.1, 0.55))
     (Cable (Vec 0.1905256 (-0.11) 0) (Vec 0 (-0.13) 0) (0.05, 0.5) (0.1, 0.55));
   load_point := (Vec 0.03 0.014 (-0.021));
-  load := [Ellipsoid (Six 0 0 1 0 0 0)
+  load := [Ellipsoid (Six 0 0 1 0 0 0) (Six 0 0 0 0 0 0)
     (Six
       (Six 10000 0 0 0 0 0)
       (Six 0 10000 0 0 0 0)
@@ -27,7 +27,8 @@ Definition robot : machine := {|
       (Six 0 0 0 0 1000000 0)
       (Six 0 0 0 0 0 1000000))];
   pose_position := Vec (Number 0) (Number 0) (Number 0.35);
-  pose_angles := TiltTorsion (Param 0) (Param 1) (Over (Times (Number 34) Pi) (Number 180))
+  pose_angles := TiltTorsion (Param 0) (Param 1) (Over (Times (Number 34) Pi) (Number 180));
+  tolerance := Tolerances (Six (0, 0) (0, 0) (0, 0) (0, 0) (0, 0) (0, 0)) 0 0 (Number 0)
 |}.
 
 Definition cert : certificate := {|

@@ -1,58 +1,162 @@
 (* SPDX-License-Identifier: GPL-3.0-or-later *)
 (** * Lemmas over the real numbers, on which a proof of soundness can rest *)
 
-From Coq Require Import Reals List Lra Psatz.
+From Coq Require Import Reals List Lra Lia Psatz.
 From Coquelicot Require Import Coquelicot.
+From Taut Require Import Statement Certificate.
 Open Scope R_scope.
 
-(** ** Slopes: q(s) = q(m) + k (s - m). Below, [f] is f(m) and [f'] is f(s); the same for [g], and t = s - m. *)
+(** ** Slopes
 
-Definition sloped (k t f f' : R) : Prop := f' = f + k * t.
+    What changes is the place s on a segment, from m, and where a machine deviates, by a vector in each of some balls.
+    Below, [f] is a quantity at m of the machine as stated, and [f'] at s of one that deviates; t is the change. *)
 
-Lemma sloped_plus k l t f f' g g' : sloped k t f f' -> sloped l t g g' -> sloped (k + l) t (f + g) (f' + g').
-Proof. unfold sloped; intros -> ->; ring. Qed.
+Record change := Change { of_place : R; of_ball : nat -> vec R }.
 
-Lemma sloped_sub k l t f f' g g' : sloped k t f f' -> sloped l t g g' -> sloped (k - l) t (f - g) (f' - g').
-Proof. unfold sloped; intros -> ->; ring. Qed.
+Fixpoint sum_over (n : nat) (f : nat -> R) : R :=
+  match n with O => 0 | S n => f 0%nat + sum_over n (fun b => f (S b)) end.
+
+(** How much a change with the slopes k makes. *)
+Definition moved (k t : change) : R :=
+  of_place k * of_place t + sum_over balls (fun b => dot (of_ball k b) (of_ball t b)).
+Definition k_plus (k l : change) := Change (of_place k + of_place l) (fun b => plus (of_ball k b) (of_ball l b)).
+Definition k_times (c : R) (k : change) := Change (c * of_place k) (fun b => times c (of_ball k b)).
+Definition k_place (c : R) := Change c (fun _ => Vec 0 0 0).
+Definition is_still (t : change) : Prop := of_place t = 0 /\ forall b, (b < balls)%nat -> of_ball t b = Vec 0 0 0.
+
+Lemma sum_over_plus n f g : sum_over n (fun b => f b + g b) = sum_over n f + sum_over n g.
+Proof. revert f g. induction n as [| n IH]; intros f g; cbn; [ring |]. rewrite IH. ring. Qed.
+
+Lemma sum_over_times n c f : sum_over n (fun b => c * f b) = c * sum_over n f.
+Proof. revert f. induction n as [| n IH]; intros f; cbn; [ring |]. rewrite IH. ring. Qed.
+
+Lemma sum_over_same n f g : (forall b, (b < n)%nat -> f b = g b) -> sum_over n f = sum_over n g.
+Proof.
+  revert f g. induction n as [| n IH]; intros f g h; cbn; [reflexivity |].
+  rewrite (h 0%nat), (IH _ (fun b => g (S b))); [reflexivity | | lia]. intros b l. apply h. lia.
+Qed.
+
+Lemma sum_over_zeros n : sum_over n (fun _ => 0) = 0.
+Proof. induction n as [| n IH]; cbn; [reflexivity | rewrite IH; ring]. Qed.
+
+Lemma dot_plus_left u v w : dot (plus u v) w = dot u w + dot v w.
+Proof. destruct u, v, w. unfold dot, plus. cbn. ring. Qed.
+
+Lemma dot_times_left c u w : dot (times c u) w = c * dot u w.
+Proof. destruct u, w. unfold dot, times. cbn. ring. Qed.
+
+Lemma dot_zero_left w : dot (Vec 0 0 0) w = 0.
+Proof. destruct w. unfold dot. cbn. ring. Qed.
+
+Lemma sum_over_one n i c e : (i < n)%nat ->
+  sum_over n (fun b => dot (if Nat.eqb b i then c else Vec 0 0 0) (e b)) = dot c (e i).
+Proof.
+  revert i e. induction n as [| n IH]; intros i e l; [lia |]. cbn [sum_over]. destruct i as [| i].
+  - cbn [Nat.eqb]. rewrite (sum_over_same _ _ (fun _ => 0)), sum_over_zeros; [ring |]. intros. apply dot_zero_left.
+  - cbn [Nat.eqb]. rewrite dot_zero_left, (IH i (fun b => e (S b))) by lia. ring.
+Qed.
+
+Lemma moved_plus k l t : moved (k_plus k l) t = moved k t + moved l t.
+Proof.
+  unfold moved, k_plus. cbn [of_place of_ball]. rewrite (sum_over_same _ _
+    (fun b => dot (of_ball k b) (of_ball t b) + dot (of_ball l b) (of_ball t b))) by (intros; apply dot_plus_left).
+  rewrite sum_over_plus. ring.
+Qed.
+
+Lemma moved_times c k t : moved (k_times c k) t = c * moved k t.
+Proof.
+  unfold moved, k_times. cbn [of_place of_ball]. rewrite (sum_over_same _ _
+    (fun b => c * dot (of_ball k b) (of_ball t b))) by (intros; apply dot_times_left).
+  rewrite sum_over_times. ring.
+Qed.
+
+Lemma moved_place c t : moved (k_place c) t = c * of_place t.
+Proof.
+  unfold moved, k_place. cbn [of_place of_ball].
+  rewrite (sum_over_same _ _ (fun _ => 0)) by (intros; apply dot_zero_left). rewrite sum_over_zeros. ring.
+Qed.
+
+Lemma moved_still k t : is_still t -> moved k t = 0.
+Proof.
+  intros [p h]. unfold moved. rewrite p.
+  rewrite (sum_over_same _ _ (fun _ => 0)), sum_over_zeros; [ring |]. intros b l. rewrite (h b l).
+  destruct (of_ball k b). unfold dot. cbn. ring.
+Qed.
+
+Definition sloped (k t : change) (f f' : R) : Prop := f' = f + moved k t.
+
+(** A slope there always is, but where the quantity changes and nothing else does. *)
+Lemma has_slope t q q' : (is_still t -> q' = q) -> exists k, sloped k t q q'.
+Proof.
+  intros h. destruct (Req_dec (moved t t) 0) as [z | n].
+  - exists (k_place 0). unfold sloped. rewrite moved_place, h; [ring |].
+    assert (square : forall u, 0 <= dot u u) by (intros [x y w]; unfold dot; cbn; nra).
+    assert (p : forall n f, (forall b, 0 <= f b) -> 0 <= sum_over n f /\
+        (sum_over n f = 0 -> forall b, (b < n)%nat -> f b = 0)).
+    { induction n as [| n IH]; intros f pos; cbn; [split; [lra | intros _ b l; lia] |].
+      destruct (IH (fun b => f (S b)) (fun b => pos (S b))) as [s e]. assert (p0 := pos 0%nat). split; [lra |].
+      intros zero b l. destruct b as [| b]; [lra |]. apply (e ltac:(lra) b). lia. }
+    destruct (p balls (fun b => dot (of_ball t b) (of_ball t b)) (fun b => square _)) as [s e].
+    unfold moved in z. assert (q0 := Rle_0_sqr (of_place t)). unfold Rsqr in q0. split; [nra |].
+    intros b l. assert (d := e ltac:(nra) b l). cbn beta in d. destruct (of_ball t b) as [x y w]. unfold dot in d. cbn in d.
+    f_equal; nra.
+  - exists (k_times ((q' - q) / moved t t) t). unfold sloped. rewrite moved_times. now field.
+Qed.
+
+Lemma sloped_plus k l t f f' g g' : sloped k t f f' -> sloped l t g g' -> sloped (k_plus k l) t (f + g) (f' + g').
+Proof. unfold sloped; rewrite moved_plus; intros -> ->; ring. Qed.
+
+Lemma sloped_minus k t f f' : sloped k t f f' -> sloped (k_times (- 1) k) t (- f) (- f').
+Proof. unfold sloped; rewrite moved_times; intros ->; ring. Qed.
 
 Lemma sloped_times k l t f f' g g' :
-  sloped k t f f' -> sloped l t g g' -> sloped (k * g' + f * l) t (f * g) (f' * g').
-Proof. unfold sloped; intros -> ->; ring. Qed.
+  sloped k t f f' -> sloped l t g g' -> sloped (k_plus (k_times g' k) (k_times f l)) t (f * g) (f' * g').
+Proof. unfold sloped; rewrite moved_plus, !moved_times; intros -> ->; ring. Qed.
 
-Lemma sloped_over k l t f f' g g' : g <> 0 -> g' <> 0 ->
-  sloped k t f f' -> sloped l t g g' -> sloped ((k - f / g * l) / g') t (f / g) (f' / g').
-Proof. unfold sloped; intros a b -> H; rewrite H in *; field; auto. Qed.
+Lemma sloped_over k l t f f' g g' : g <> 0 -> g' <> 0 -> sloped k t f f' -> sloped l t g g' ->
+  sloped (k_times (/ g') (k_plus k (k_times (- 1) (k_times (f / g) l)))) t (f / g) (f' / g').
+Proof. unfold sloped; rewrite moved_times, moved_plus, !moved_times; intros a b -> H; rewrite H in *; field; auto. Qed.
 
 Lemma sloped_sqrt k t f f' : 0 <= f -> 0 < f' ->
-  sloped k t f f' -> sloped (k / (sqrt f + sqrt f')) t (sqrt f) (sqrt f').
+  sloped k t f f' -> sloped (k_times (/ (sqrt f + sqrt f')) k) t (sqrt f) (sqrt f').
 Proof.
-  unfold sloped; intros a b H.
+  unfold sloped; rewrite moved_times; intros a b H.
   assert (p := sqrt_pos f). assert (q := sqrt_lt_R0 f' b).
   assert (r := sqrt_sqrt f a). assert (s := sqrt_sqrt f' (Rlt_le _ _ b)).
   apply Rmult_eq_reg_r with (sqrt f + sqrt f'); [|lra].
-  replace ((sqrt f + k / (sqrt f + sqrt f') * t) * (sqrt f + sqrt f'))
-    with (sqrt f * (sqrt f + sqrt f') + k * t) by (field; lra).
-  replace (k * t) with (f' - f) by lra. nra.
+  replace ((sqrt f + / (sqrt f + sqrt f') * moved k t) * (sqrt f + sqrt f'))
+    with (sqrt f * (sqrt f + sqrt f') + moved k t) by (field; lra).
+  replace (moved k t) with (f' - f) by lra. nra.
 Qed.
 
-Lemma sloped_sin k t f f' : sloped k t f f' ->
-  exists x, Rmin f f' <= x <= Rmax f f' /\ sloped (cos x * k) t (sin f) (sin f').
+Lemma sin_between f f' : exists x, Rmin f f' <= x <= Rmax f f' /\ sin f' = sin f + cos x * (f' - f).
 Proof.
-  unfold sloped; intros H.
   destruct (MVT_gen sin f f' cos) as [x [r e]].
   - intros x _; auto_derive; [exact I | ring].
   - intros x _; apply continuity_sin.
-  - exists x; split; [exact r|]. replace (cos x * k * t) with (cos x * (f' - f)) by (rewrite H; ring). lra.
+  - exists x; split; [exact r | lra].
 Qed.
 
-Lemma sloped_cos k t f f' : sloped k t f f' ->
-  exists x, Rmin f f' <= x <= Rmax f f' /\ sloped (- sin x * k) t (cos f) (cos f').
+Lemma cos_between f f' : exists x, Rmin f f' <= x <= Rmax f f' /\ cos f' = cos f + - sin x * (f' - f).
 Proof.
-  unfold sloped; intros H.
   destruct (MVT_gen cos f f' (fun x => - sin x)) as [x [r e]].
   - intros x _; auto_derive; [exact I | ring].
   - intros x _; apply continuity_cos.
-  - exists x; split; [exact r|]. replace (- sin x * k * t) with (- sin x * (f' - f)) by (rewrite H; ring). lra.
+  - exists x; split; [exact r | lra].
+Qed.
+
+Lemma sloped_sin k t f f' : sloped k t f f' ->
+  exists x, Rmin f f' <= x <= Rmax f f' /\ sloped (k_times (cos x) k) t (sin f) (sin f').
+Proof.
+  unfold sloped; intros H. destruct (sin_between f f') as [x [r e]].
+  exists x; split; [exact r |]. rewrite moved_times, e, H. ring.
+Qed.
+
+Lemma sloped_cos k t f f' : sloped k t f f' ->
+  exists x, Rmin f f' <= x <= Rmax f f' /\ sloped (k_times (- sin x) k) t (cos f) (cos f').
+Proof.
+  unfold sloped; intros H. destruct (cos_between f f') as [x [r e]].
+  exists x; split; [exact r |]. rewrite moved_times, e, H. ring.
 Qed.
 
 (** ** The range of a linear function over an ellipsoid whose matrix is diagonal: Cauchy and Schwarz.

@@ -1,10 +1,10 @@
 (* SPDX-License-Identifier: GPL-3.0-or-later *)
-(** * What wrenches of a load's items can make of a row: y.w, over the real numbers
+(** * What wrenches of a load's items can make of a row: y.w, over the real numbers; and turns about an axis
 
     A row y is a pair of vectors: y.w is [fst y . force w + snd y . moment w]. *)
 
 From Coq Require Import Reals QArith Qreals Lra List.
-From Taut Require Import Statement.
+From Taut Require Import Statement Lemmas.
 Open Scope R_scope.
 
 Definition row : Type := vec R * vec R.
@@ -48,6 +48,39 @@ Proof.
   assert (0 <= norm (cross u v) * norm (cross u v)) by apply Rle_0_sqr. lra.
 Qed.
 
+Lemma coordinates_are_below v : Rabs (vx v) <= norm v /\ Rabs (vy v) <= norm v /\ Rabs (vz v) <= norm v.
+Proof.
+  assert (p := norm_is_positive v). assert (s := dot_is_square v). unfold dot in s.
+  assert (a := Rle_0_sqr (vx v)). assert (b := Rle_0_sqr (vy v)). assert (c := Rle_0_sqr (vz v)). unfold Rsqr in *.
+  split; [| split]; apply abs_below; lra.
+Qed.
+
+Lemma norm_of_plus u v : norm (plus u v) <= norm u + norm v.
+Proof.
+  assert (a := norm_is_positive u). assert (b := norm_is_positive v). assert (c := norm_is_positive (plus u v)).
+  rewrite <- (Rabs_pos_eq _ c). apply abs_below; [lra |]. rewrite <- dot_is_square.
+  replace (dot (plus u v) (plus u v)) with (dot u u + 2 * dot u v + dot v v) by (clear; revert u v; by_coordinates).
+  rewrite !dot_is_square. assert (h := dot_is_below u v). assert (k := Rle_abs (dot u v)). nra.
+Qed.
+
+Lemma norm_of_times k v : norm (times k v) = Rabs k * norm v.
+Proof.
+  unfold norm. replace (dot (times k v) (times k v)) with (Rsqr k * dot v v) by (unfold Rsqr; revert v; by_coordinates).
+  rewrite sqrt_mult_alt by apply Rle_0_sqr. now rewrite sqrt_Rsqr_abs.
+Qed.
+
+Lemma norm_of_zero : norm (Vec 0 0 0) = 0.
+Proof. unfold norm, dot. cbn [vx vy vz]. replace (_ + _ + _) with 0 by ring. apply sqrt_0. Qed.
+
+Lemma norm_is_zero v : norm v <= 0 -> v = Vec 0 0 0.
+Proof.
+  intros h. assert (z : dot v v = 0) by (rewrite dot_is_square; assert (p := norm_is_positive v); nra).
+  destruct v as [x y w]. unfold dot in z. cbn in z. f_equal; nra.
+Qed.
+
+Lemma minus_itself v : minus v v = Vec 0 0 0.
+Proof. revert v. by_coordinates. Qed.
+
 (** Of a vector across n only what h has across n counts. *)
 Lemma dot_across h v n : dot v n = 0 -> norm n <> 0 -> Rabs (dot h v) <= norm v * norm (cross n h) / norm n.
 Proof.
@@ -77,9 +110,9 @@ Proof. destruct y as [a b], v as [c d], w as [e f]. unfold along_row, wrench_plu
 Lemma along_times y k w : along_row y (wrench_times k w) = k * along_row y w.
 Proof. destruct y as [a b], w as [e f]. unfold along_row, wrench_times. cbn [force moment fst snd]. by_coordinates. Qed.
 
-Lemma along_force m P y point f : along_row y (force_at m P point f) = dot (covector y (arm m P point)) f.
+Lemma along_force b P y point f : along_row y (force_at b P point f) = dot (covector y (arm b P point)) f.
 Proof.
-  destruct y as [a b]. unfold along_row, force_at, covector. cbn [force moment fst snd]. generalize (arm m P point). by_coordinates.
+  destruct y as [h k]. unfold along_row, force_at, covector. cbn [force moment fst snd]. generalize (arm b P point). by_coordinates.
 Qed.
 
 Lemma along_moment y v : along_row y (pure_moment v) = dot (snd y) v.
@@ -123,4 +156,120 @@ Proof.
   - apply Rabs_le. lra.
   - replace k with ((l + u) * / 2 + (k - (l + u) * / 2)) at 1 by ring.
     apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat_l. apply Rabs_le. lra.
+Qed.
+
+(** ** Vectors by their parts *)
+
+Lemma plus_of_minus u c : plus c (minus u c) = u.
+Proof. revert u c. intros [x y z] [x' y' z']. unfold plus, minus. cbn [vx vy vz]. f_equal; ring. Qed.
+
+Lemma minus_in_two_steps u p c : minus u p = plus (minus c p) (minus u c).
+Proof. revert u p c. by_coordinates. Qed.
+
+Lemma minus_of_nearby u p c l : minus u p = plus (minus c l) (plus (minus u c) (times (- 1) (minus p l))).
+Proof. revert u p c l. by_coordinates. Qed.
+
+Definition combination (u x y z : vec R) : vec R := plus (plus (times (vx u) x) (times (vy u) y)) (times (vz u) z).
+
+Lemma combination_of_plus u w x y z : combination (plus u w) x y z = plus (combination u x y z) (combination w x y z).
+Proof. unfold combination. revert u w x y z. by_coordinates. Qed.
+
+Lemma dot_of_combination h u x y z : dot h (combination u x y z) = dot (Vec (dot x h) (dot y h) (dot z h)) u.
+Proof. unfold combination. revert h u x y z. by_coordinates. Qed.
+
+Lemma dot_of_moved y a d g mass : dot (covector y (plus a d)) (times mass g) =
+  mass * (dot (covector y a) g + dot d (cross g (snd y))).
+Proof. unfold covector. destruct y as [f k]. revert f k a d g. by_coordinates. Qed.
+
+(** ** Turns about an axis *)
+
+Lemma sin_is_below a : Rabs (sin a) <= Rabs a.
+Proof.
+  destruct (sin_between 0 a) as [x [_ e]]. rewrite sin_0, Rminus_0_r in e.
+  replace (sin a) with (cos x * a) by lra. rewrite Rabs_mult. assert (c := COS_bound x).
+  rewrite <- (Rmult_1_l (Rabs a)) at 2. apply Rmult_le_compat_r; [apply Rabs_pos |]. now apply Rabs_le.
+Qed.
+
+(** A chord is no longer than its arc: 2 - 2 cos a = (2 sin (a / 2))^2. *)
+Lemma chord_is_below a : 2 - 2 * cos a <= a * a.
+Proof.
+  assert (e : cos a = 1 - 2 * sin (a / 2) * sin (a / 2)) by (replace a with (2 * (a / 2)) at 1 by field; apply cos_2a_sin).
+  assert (h := sin_is_below (a / 2)). apply Rsqr_le_abs_1 in h. unfold Rsqr in h. rewrite e. nra.
+Qed.
+
+Lemma one_of_cos a : cos a * cos a = 1 - sin a * sin a.
+Proof. assert (h := sin2_cos2 a). unfold Rsqr in h. lra. Qed.
+
+Lemma turn_about_is_linear n a u x y z : turn_about n a (combination u x y z) =
+  combination u (turn_about n a x) (turn_about n a y) (turn_about n a z).
+Proof. unfold turn_about, combination. generalize (cos a), (sin a). revert n u x y z. by_coordinates. Qed.
+
+Lemma turn_about_of_sum n a t u k : turn_about n a (plus u (times t k)) = plus (turn_about n a u) (times t (turn_about n a k)).
+Proof. unfold turn_about. generalize (cos a), (sin a). revert n u k. by_coordinates. Qed.
+
+Lemma turn_about_by_nothing n u : turn_about n 0 u = u.
+Proof. unfold turn_about. rewrite cos_0, sin_0. revert n u. by_coordinates. Qed.
+
+Lemma turn_about_keeps_dot n a u v : norm n = 1 -> dot (turn_about n a u) (turn_about n a v) = dot u v.
+Proof.
+  intros unit. assert (one : dot n n = 1) by (rewrite dot_is_square, unit; ring). assert (c := one_of_cos a).
+  assert (e : dot (turn_about n a u) (turn_about n a v) = cos a * cos a * dot u v +
+    sin a * sin a * (dot n n * dot u v - dot n u * dot n v) +
+    (2 * cos a * (1 - cos a) + (1 - cos a) * (1 - cos a) * dot n n) * (dot n u * dot n v)).
+  { unfold turn_about. generalize (cos a), (sin a). clear. revert n u v. by_coordinates. }
+  rewrite e, one.
+  replace (_ + _ + _) with ((cos a * cos a) * (dot u v - dot n u * dot n v) +
+    sin a * sin a * (dot u v - dot n u * dot n v) + dot n u * dot n v) by ring.
+  rewrite c. ring.
+Qed.
+
+(** Nothing is moved by more than the angle times its length. *)
+Lemma turn_about_moves_little n a u : norm n = 1 -> norm (minus (turn_about n a u) u) <= Rabs a * norm u.
+Proof.
+  intros unit. assert (one : dot n n = 1) by (rewrite dot_is_square, unit; ring). assert (c := one_of_cos a).
+  assert (p := norm_is_positive (minus (turn_about n a u) u)).
+  assert (q := Rmult_le_pos _ _ (Rabs_pos a) (norm_is_positive u)).
+  rewrite <- (Rabs_pos_eq _ p). apply abs_below; [exact q |].
+  rewrite <- dot_is_square.
+  assert (e : dot (minus (turn_about n a u) u) (minus (turn_about n a u) u) =
+    sin a * sin a * (dot n n * dot u u - dot n u * dot n u) +
+    (1 - cos a) * (1 - cos a) * (dot u u - 2 * (dot n u * dot n u) + dot n n * (dot n u * dot n u))).
+  { unfold turn_about. generalize (cos a), (sin a). clear. revert n u. by_coordinates. }
+  rewrite e, one.
+  replace (_ + _) with ((2 - 2 * cos a) * (dot u u - dot n u * dot n u)).
+  - replace (Rabs a * norm u * (Rabs a * norm u)) with (a * a * dot u u).
+    + assert (l := lagrange n u). rewrite one, (dot_is_square (cross n u)) in l.
+      assert (0 <= norm (cross n u) * norm (cross n u)) by apply Rle_0_sqr.
+      assert (0 <= dot n u * dot n u) by apply Rle_0_sqr.
+      assert (k := chord_is_below a). assert (cb := COS_bound a). nra.
+    + rewrite dot_is_square. replace (a * a) with (Rabs a * Rabs a); [ring |].
+      rewrite <- Rabs_mult. apply Rabs_pos_eq, Rle_0_sqr.
+  - replace (sin a * sin a) with (1 - cos a * cos a) by lra. ring.
+Qed.
+
+(** For angles of up to a right one it moves u by w × (u + d), where w, along the axis, and d are small. *)
+Definition moves_about (n : vec R) (a : R) : vec R := times (sin a) n.
+
+Lemma turn_about_is_cross n a u : norm n = 1 -> 0 <= cos a -> exists d, norm d <= Rabs a * norm u /\
+  turn_about n a u = plus u (cross (moves_about n a) (plus u d)).
+Proof.
+  intros unit pos. assert (one : dot n n = 1) by (rewrite dot_is_square, unit; ring). assert (c := one_of_cos a).
+  set (q := sin a / (1 + cos a)). exists (times q (cross n u)). split.
+  - rewrite norm_of_times.
+    assert (hq : Rabs q <= Rabs a).
+    { unfold q, Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ _)) by (left; apply Rinv_0_lt_compat; lra).
+      apply Rle_trans with (2 := sin_is_below a). rewrite <- (Rmult_1_r (Rabs (sin a))) at 2.
+      apply Rmult_le_compat_l; [apply Rabs_pos |]. rewrite <- Rinv_1. apply Rinv_le_contravar; lra. }
+    assert (hc : norm (cross n u) <= norm u).
+    { rewrite <- (Rabs_pos_eq _ (norm_is_positive (cross n u))). apply abs_below; [apply norm_is_positive |].
+      assert (l := lagrange n u). rewrite one, (dot_is_square (cross n u)), (dot_is_square u) in l.
+      assert (0 <= dot n u * dot n u) by apply Rle_0_sqr. lra. }
+    apply Rmult_le_compat; try assumption; [apply Rabs_pos | apply norm_is_positive].
+  - assert (hs : sin a * q = 1 - cos a).
+    { unfold q. apply Rmult_eq_reg_r with (1 + cos a); [| lra].
+      replace (sin a * (sin a / (1 + cos a)) * (1 + cos a)) with (sin a * sin a) by (field; lra). lra. }
+    assert (e : plus u (cross (moves_about n a) (plus u (times q (cross n u)))) =
+      plus (plus u (times (sin a) (cross n u))) (times (sin a * q) (minus (times (dot n u) n) (times (dot n n) u)))).
+    { unfold moves_about. generalize (sin a). intros x. clearbody q. clear. revert n u. by_coordinates. }
+    rewrite e, hs, one. unfold turn_about. generalize (cos a), (sin a). clear. revert n u. by_coordinates.
 Qed.

@@ -41,12 +41,6 @@ Proof.
   unfold every, fold6. rewrite !andb_true_iff. intros h. decompose [and] h. apply each_of_six; assumption.
 Qed.
 
-Lemma join_left x i j : is_in x i -> is_in x (I.join i j).
-Proof. intros h. apply I.join_correct. now left. Qed.
-
-Lemma join_right x i j : is_in x j -> is_in x (I.join i j).
-Proof. intros h. apply I.join_correct. now right. Qed.
-
 Lemma most_is_in r l : (forall i, (i < 6)%nat -> is_in (r i) (nth6 l i)) -> is_in (most r) (fold6 I.join l).
 Proof.
   intros h. unfold most, fold6.
@@ -65,17 +59,6 @@ Qed.
 
 Lemma abs_is_in x i : is_in x i -> is_in (Rabs x) (I.abs i).
 Proof. exact (I.abs_correct i (Xreal x)). Qed.
-
-Lemma sqr_is_in x i : is_in x i -> is_in (x * x) (I.sqr prec i).
-Proof. intros h. exact (I.sqr_correct prec i (Xreal x) h). Qed.
-
-Lemma symmetric_is_in b y i : is_in b i -> Rabs y <= b -> is_in y (symmetric i).
-Proof.
-  intros h a. unfold symmetric.
-  apply (between_is_in (- b) b); [now apply join_left, neg_is_in | now apply join_right |].
-  assert (n : 0 <= b) by (apply Rle_trans with (Rabs y); [apply Rabs_pos | exact a]).
-  rewrite Rmin_left, Rmax_right by lra. unfold Rabs in a. destruct (Rcase_abs y); lra.
-Qed.
 
 Lemma below_is_true i j x y : below prec i j = true -> is_in x i -> is_in y j -> x < y.
 Proof.
@@ -161,13 +144,20 @@ Qed.
 (** c.w, coordinate by coordinate. *)
 Definition along_six (c : nat -> R) (w : six R) : R := total (fun k => c k * nth6 w k).
 
-Lemma ellipsoid_is_in m P c cI center shape w : (forall k, (k < 6)%nat -> is_in (c k) (nth6 cI k)) ->
-  is_diagonal shape = true -> in_item m P (Ellipsoid center shape) w ->
-  is_in (along_six c (map6 Q2R center)) (mid (fst (ellipsoid_part prec cI center shape))) /\
-  is_in (along_six c (six_of w) - along_six c (map6 Q2R center)) (snd (ellipsoid_part prec cI center shape)).
+Lemma along_is_in c cI w : (forall k, (k < 6)%nat -> is_in (c k) (nth6 cI k)) ->
+  is_in (along_six c (map6 Q2R w)) (along prec cI w).
 Proof.
-  intros hc diag h.
-  set (z := fun k => nth6 (six_of w) k - Q2R (nth6 center k)).
+  intros hc. apply sum_is_in. intros k lk. rewrite nth6_zip, nth6_map.
+  apply mul_is_in; [now apply hc | apply fraction_is_in].
+Qed.
+
+Lemma ellipsoid_is_in b P c cI center shift shape w : (forall k, (k < 6)%nat -> is_in (c k) (nth6 cI k)) ->
+  is_diagonal shape = true -> in_item b P (Ellipsoid center shift shape) w ->
+  is_in (along_six c (map6 Q2R center)) (mid (fst (ellipsoid_part prec cI center shift shape))) /\
+  is_in (along_six c (six_of w) - along_six c (map6 Q2R center)) (snd (ellipsoid_part prec cI center shift shape)).
+Proof.
+  intros hc diag [x [hx h]].
+  set (z := fun k => nth6 (six_of w) k - (Q2R (nth6 center k) + x * Q2R (nth6 shift k))).
   set (e := fun k => Q2R (nth6 (diagonal shape) k)).
   set (l := [(c 0%nat, e 0%nat, z 0%nat); (c 1%nat, e 1%nat, z 1%nat); (c 2%nat, e 2%nat, z 2%nat);
              (c 3%nat, e 3%nat, z 3%nat); (c 4%nat, e 4%nat, z 4%nat); (c 5%nat, e 5%nat, z 5%nat)]).
@@ -178,28 +168,33 @@ Proof.
       | H : Z.ltb 0 _ = true |- _ => apply above_zero_of in H end.
     split.
     - unfold l, positive, e, diagonal. repeat constructor; cbn [fst snd nth6 at1 at2 at3 at4 at5 at6]; assumption.
-    - cbn [in_item] in h. unfold sum6, zip6, fold6 in h. cbn [at1 at2 at3 at4 at5 at6] in h.
+    - cbv zeta in h. unfold sum6, zip6, fold6 in h. cbn [at1 at2 at3 at4 at5 at6] in h.
       repeat match goal with H : Q2R _ = 0 |- _ => rewrite H in h; clear H end.
       unfold l, Lemmas.form, Lemmas.total, e, z, diagonal. cbn [fold_right nth6 at1 at2 at3 at4 at5 at6].
       eapply Rle_trans; [| exact h]. apply Req_le. ring. }
   destruct hl as [hp hf]. assert (a := range_of_ellipsoid l hp hf).
   split; cbn [ellipsoid_part fst snd mid constant].
-  - apply sum_is_in. intros k lk. rewrite nth6_zip, nth6_map. apply mul_is_in; [now apply hc | apply fraction_is_in].
-  - replace (along_six c (six_of w) - along_six c (map6 Q2R center)) with (linear l).
-    + apply (symmetric_is_in (sqrt (spread l))); [| exact a]. apply sqrt_is_in.
-      replace (spread l) with (total (fun k => c k * c k / e k)).
-      * apply sum_is_in. intros k lk. rewrite nth6_zip. apply div_is_in; [now apply sqr_is_in, hc | apply fraction_is_in].
-      * unfold l, spread, Lemmas.total, SixEquations.total. cbn [fold_right]. ring.
+  - now apply along_is_in.
+  - replace (along_six c (six_of w) - along_six c (map6 Q2R center)) with
+      (x * along_six c (map6 Q2R shift) + linear l).
+    + apply (symmetric_is_in (Rabs (along_six c (map6 Q2R shift)) + sqrt (spread l))).
+      * apply add_is_in; [now apply abs_is_in, along_is_in |]. apply sqrt_is_in.
+        replace (spread l) with (total (fun k => c k * c k / e k)).
+        -- apply sum_is_in. intros k lk. rewrite nth6_zip. apply div_is_in; [now apply sqr_is_in, hc | apply fraction_is_in].
+        -- unfold l, spread, Lemmas.total, SixEquations.total. cbn [fold_right]. ring.
+      * apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat; [| exact a].
+        rewrite Rabs_mult. rewrite <- (Rmult_1_l (Rabs (along_six c (map6 Q2R shift)))) at 2.
+        apply Rmult_le_compat_r; [apply Rabs_pos |]. now apply Rabs_le.
     + unfold along_six, l, linear, Lemmas.total, SixEquations.total, z. cbn [fold_right]. rewrite !nth6_map. ring.
 Qed.
-
 
 (** ** Poses *)
 
 Section Offset.
 
-Variables (t : R) (offset : interval).
-Hypotheses (zero_in : is_in 0 offset) (t_in : is_in t offset).
+Variables (t : change) (reach : interval * list interval).
+Hypotheses (zero_in : is_in 0 (fst reach)) (t_in : is_in (of_place t) (fst reach))
+  (as_many : List.length (snd reach) = balls) (t_within : deviates_within (of_ball t) balls (snd reach)).
 
 Notation enc := (encloses t).
 Notation add_enc := (add_encloses prec t).
@@ -210,7 +205,7 @@ Definition v_encloses (V : vec form) (u u' : vec R) : Prop :=
   enc (vx V) (vx u) (vx u') /\ enc (vy V) (vy u) (vy u') /\ enc (vz V) (vz u) (vz u').
 
 Ltac by_parts := repeat first [assumption | apply add_encloses | apply sub_encloses | apply mul_encloses |
-  apply tight_encloses; [exact zero_in | exact t_in |]].
+  apply tight_encloses; [exact zero_in | exact t_in | exact as_many | exact t_within |]].
 
 Lemma v_add_encloses V W u u' w w' : v_encloses V u u' -> v_encloses W w w' ->
   v_encloses (v_add prec V W) (plus u w) (plus u' w').
@@ -224,7 +219,7 @@ Lemma v_scale_encloses k q q' V u u' : enc k q q' -> v_encloses V u u' ->
   v_encloses (v_scale prec k V) (times q u) (times q' u').
 Proof. intros h [a [b c]]. split; [| split]; cbn; by_parts. Qed.
 
-Lemma v_tight_encloses V u u' : v_encloses V u u' -> v_encloses (v_tight prec offset V) u u'.
+Lemma v_tight_encloses V u u' : v_encloses V u u' -> v_encloses (v_tight prec reach V) u u'.
 Proof. intros [a [b c]]. split; [| split]; cbn; by_parts. Qed.
 
 Lemma v_cross_encloses V W u u' w w' : v_encloses V u u' -> v_encloses W w w' ->
@@ -233,6 +228,108 @@ Proof. intros [a [b c]] [d [e f]]. split; [| split]; cbn; by_parts. Qed.
 
 Lemma v_rational_encloses u : v_encloses (v_rational prec u) (real_vec u) (real_vec u).
 Proof. split; [| split]; cbn; apply constant_encloses, fraction_is_in. Qed.
+
+Lemma zero_in_symmetric r i : is_in r i -> 0 <= r -> is_in 0 (symmetric i).
+Proof. intros h p. apply (symmetric_is_in r); [exact h |]. now rewrite Rabs_R0. Qed.
+
+(** How far something is off along a unit vector. *)
+Lemma off_by_encloses ball r i unit c f q q' : (ball < balls)%nat -> norm (of_ball t ball) <= r -> is_in r i ->
+  v_is_in c unit -> Rabs (dot c (of_ball t ball)) <= norm (of_ball t ball) -> enc f q q' ->
+  enc (f_add prec f (off_by prec ball i unit)) q (q' + dot c (of_ball t ball)).
+Proof.
+  intros l small hr hc below e. replace q with (q + 0) by ring. apply add_encloses; [exact e |].
+  assert (p := norm_is_positive (of_ball t ball)).
+  split; [apply (integer_is_in prec 0) | split; [apply (zero_in_symmetric r); [exact hr | lra] | split]].
+  - apply (symmetric_is_in r); [exact hr | lra].
+  - exists (Change 0 (fun b => if Nat.eqb b ball then c else Vec 0 0 0)). split.
+    + split; [apply (integer_is_in prec 0) | now apply b_only_holds].
+    + unfold sloped, moved. cbn [of_place of_ball]. rewrite sum_over_one by exact l. ring.
+Qed.
+
+Lemma v_within_encloses ball q V u u' : (ball < balls)%nat -> norm (of_ball t ball) <= Q2R q -> v_encloses V u u' ->
+  v_encloses (v_within prec ball q V) u (plus u' (of_ball t ball)).
+Proof.
+  intros l small [a [b c]]. unfold v_within. destruct (Qeq_bool q 0) eqn:z.
+  - apply zero_of in z. rewrite (norm_is_zero (of_ball t ball)), plus_zero by (rewrite <- z; exact small).
+    split; [| split]; assumption.
+  - destruct (coordinates_are_below (of_ball t ball)) as [x [y w]].
+    assert (ex : forall v, dot (Vec 1 0 0) v = vx v) by (intros [v1 v2 v3]; unfold dot; cbn; ring).
+    assert (ey : forall v, dot (Vec 0 1 0) v = vy v) by (intros [v1 v2 v3]; unfold dot; cbn; ring).
+    assert (ez : forall v, dot (Vec 0 0 1) v = vz v) by (intros [v1 v2 v3]; unfold dot; cbn; ring).
+    assert (one_in := integer_is_in prec 1). assert (zero_in' := integer_is_in prec 0).
+    assert (r_in := fraction_is_in prec q).
+    split; [| split]; cbn [vx vy vz plus].
+    + rewrite <- (ex (of_ball t ball)). apply (off_by_encloses _ (Q2R q)); try assumption.
+      * exact (conj one_in (conj zero_in' zero_in')).
+      * rewrite ex. exact x.
+    + rewrite <- (ey (of_ball t ball)). apply (off_by_encloses _ (Q2R q)); try assumption.
+      * exact (conj zero_in' (conj one_in zero_in')).
+      * rewrite ey. exact y.
+    + rewrite <- (ez (of_ball t ball)). apply (off_by_encloses _ (Q2R q)); try assumption.
+      * exact (conj zero_in' (conj zero_in' one_in)).
+      * rewrite ez. exact w.
+Qed.
+
+Lemma around_is_in x x' r i j : is_in x i -> is_in r j -> Rabs (x' - x) <= r -> is_in x' (add prec i (symmetric j)).
+Proof.
+  intros a b c. replace x' with (x + (x' - x)) by ring. apply add_is_in; [exact a |]. now apply (symmetric_is_in r).
+Qed.
+
+Lemma v_turned_encloses n angle e i V u u' : norm n = 1 -> Rabs angle <= e -> e < 1 -> is_in e i ->
+  of_ball t 1 = moves_about n angle ->
+  v_encloses V u u' -> v_encloses (v_turned prec i V) u (turn_about n angle u').
+Proof.
+  intros unit he small hi ball [[a [b [c [k [[hk kb] ek]]]]] [[a1 [b1 [c1 [k1 [[hk1 kb1] ek1]]]]] [a2 [b2 [c2 [k2 [[hk2 kb2] ek2]]]]]]].
+  assert (up : 0 <= cos angle).
+  { assert (p := PI2_3_2). assert (h := Rle_abs angle). assert (h' := Rle_abs (- angle)). rewrite Rabs_Ropp in h'.
+    apply cos_ge_0; lra. }
+  destruct (turn_about_is_cross n angle u' unit up) as [d [hd eq]].
+  set (change := symmetric (mul prec i (norm_of prec (Vec (over (vx V)) (over (vy V)) (over (vz V)))))).
+  assert (r : is_in (e * norm u') (mul prec i (norm_of prec (Vec (over (vx V)) (over (vy V)) (over (vz V)))))).
+  { apply mul_is_in; [exact hi |]. apply norm_of_is_in. exact (conj c (conj c1 c2)). }
+  assert (little : Rabs angle * norm u' <= e * norm u') by (apply Rmult_le_compat_r; [apply norm_is_positive | exact he]).
+  assert (near : forall x x' j, is_in x j -> Rabs (x' - x) <= Rabs angle * norm u' -> is_in x' (add prec j change)).
+  { intros x x' j h1 h2. apply (around_is_in x x' (e * norm u')); [exact h1 | exact r | lra]. }
+  assert (same : forall x j, is_in x j -> is_in x (add prec j change)).
+  { intros x j h. apply (near x x j h). rewrite Rminus_diag_eq, Rabs_R0 by reflexivity.
+    apply Rmult_le_pos; [apply Rabs_pos | apply norm_is_positive]. }
+  assert (move := turn_about_moves_little n angle u' unit).
+  destruct (coordinates_are_below (minus (turn_about n angle u') u')) as [m1 [m2 m3]].
+  destruct (coordinates_are_below d) as [d1 [d2 d3]].
+  assert (hx : is_in (vx (plus u' d)) (add prec (over (vx V)) change)).
+  { apply (near (vx u')); [exact c |]. cbn. replace (vx u' + vx d - vx u') with (vx d) by ring. lra. }
+  assert (hy : is_in (vy (plus u' d)) (add prec (over (vy V)) change)).
+  { apply (near (vy u')); [exact c1 |]. cbn. replace (vy u' + vy d - vy u') with (vy d) by ring. lra. }
+  assert (hz : is_in (vz (plus u' d)) (add prec (over (vz V)) change)).
+  { apply (near (vz u')); [exact c2 |]. cbn. replace (vz u' + vz d - vz u') with (vz d) by ring. lra. }
+  assert (zero_in' := integer_is_in prec 0).
+  assert (part : forall f q q' q'' g unit k, is_in q (mid f) -> is_in q (over f) -> is_in q'' (add prec (over f) change) ->
+      in_slopes k f -> sloped k t q q' -> v_is_in g unit -> q'' = q' + dot g (of_ball t 1) ->
+      enc (Form (mid f) (add prec (over f) change) (slope f) (b_add prec (slopes f) (b_only 1 unit))) q q'').
+  { intros f q q' q'' g unit0 l h1 h2 h3 [h4 h5] h6 h7 h8.
+    split; [exact h1 | split; [now apply same | split; [exact h3 |]]].
+    exists (k_plus l (Change 0 (fun b => if Nat.eqb b 1 then g else Vec 0 0 0))). split; [split |].
+    - cbn [of_place k_plus slope]. rewrite Rplus_0_r. exact h4.
+    - apply b_add_holds; [exact h5 | now apply b_only_holds].
+    - unfold sloped in *. rewrite moved_plus. unfold moved at 2. cbn [of_place of_ball].
+      rewrite sum_over_one by (unfold balls; lia). rewrite h8, h6. ring. }
+  split; [| split].
+  - apply (part _ _ (vx u') _ (Vec 0 (vz (plus u' d)) (- vy (plus u' d))) _ k); try assumption.
+    + exact (near _ _ _ c (Rle_trans _ _ _ m1 move)).
+    + exact (conj hk kb).
+    + exact (conj zero_in' (conj hz (neg_is_in _ _ hy))).
+    + rewrite eq, ball. generalize (moves_about n angle), (plus u' d). intros [w1 w2 w3] [v1 v2 v3]. unfold dot. cbn. ring.
+  - apply (part _ _ (vy u') _ (Vec (- vz (plus u' d)) 0 (vx (plus u' d))) _ k1); try assumption.
+    + exact (near _ _ _ c1 (Rle_trans _ _ _ m2 move)).
+    + exact (conj hk1 kb1).
+    + exact (conj (neg_is_in _ _ hz) (conj zero_in' hx)).
+    + rewrite eq, ball. generalize (moves_about n angle), (plus u' d). intros [w1 w2 w3] [v1 v2 v3]. unfold dot. cbn. ring.
+  - apply (part _ _ (vz u') _ (Vec (vy (plus u' d)) (- vx (plus u' d)) 0) _ k2); try assumption.
+    + exact (near _ _ _ c2 (Rle_trans _ _ _ m3 move)).
+    + exact (conj hk2 kb2).
+    + exact (conj hy (conj (neg_is_in _ _ hx) zero_in')).
+    + rewrite eq, ball. generalize (moves_about n angle), (plus u' d). intros [w1 w2 w3] [v1 v2 v3]. unfold dot. cbn. ring.
+Qed.
 
 Lemma rot_x_encloses F q q' V u u' : enc F q q' -> v_encloses V u u' ->
   v_encloses (f_rot_x prec (f_cos prec F) (f_sin prec F) V) (rot_x q u) (rot_x q' u').
@@ -263,11 +360,10 @@ Definition turn_of (a : angles) (v : expr -> R) (u : vec R) : vec R :=
   | Zyz alpha beta gamma => rot_z (v alpha) (rot_y (v beta) (rot_z (v gamma) u))
   end.
 
-Lemma turn_is_linear a v u : turn_of a v u =
-  plus (plus (times (vx u) (turn_of a v unit_x)) (times (vy u) (turn_of a v unit_y))) (times (vz u) (turn_of a v unit_z)).
+Lemma turn_is_linear a v u : turn_of a v u = combination u (turn_of a v unit_x) (turn_of a v unit_y) (turn_of a v unit_z).
 Proof.
   destruct u as [x y z], a; cbn [turn_of];
-    unfold rot_z, rot_y, rot_x, plus, times, unit_x, unit_y, unit_z; cbn [vx vy vz]; f_equal; ring.
+    unfold combination, rot_z, rot_y, rot_x, plus, times, unit_x, unit_y, unit_z; cbn [vx vy vz]; f_equal; ring.
 Qed.
 
 Variables (p : nat -> form) (v v' : nat -> R).
@@ -292,54 +388,118 @@ Proof.
       apply rot_x_encloses | (split; [| split]; assumption)].
 Qed.
 
-Lemma turned_encloses a U u u' : v_encloses U u u' ->
-  v_encloses (turned prec (rotation prec a p) U) (turn_of a (value v) u) (turn_of a (value v') u').
+(** A machine that deviates, and where its platform is while it is meant to be at [pose_at m v']; and the machine as it is
+    stated, at [pose_at m v]. *)
+Variables (m : machine) (B : built) (off axis : vec R) (angle : R).
+Hypotheses (axis_is_unit : norm axis = 1)
+  (angle_is_small : Rabs angle <= Rabs (value (fun _ => 0) (of_orientation (tolerance m))))
+  (angle_is_below_1 : Rabs (value (fun _ => 0) (of_orientation (tolerance m))) < 1).
+Hypotheses (ball_of_position : of_ball t 0 = off) (ball_of_turn : of_ball t 1 = moves_about axis angle)
+  (ball_of_load_point : of_ball t 2 = minus (load_at B) (real_vec (load_point m)))
+  (ball_of_base : forall i, (i < 6)%nat ->
+    of_ball t (3 + 2 * i) = minus (fst (nth6 (anchors B) i)) (real_vec (base (nth6 (cables m) i))))
+  (ball_of_platform : forall i, (i < 6)%nat ->
+    of_ball t (4 + 2 * i) = minus (snd (nth6 (anchors B) i)) (real_vec (platform (nth6 (cables m) i)))).
+Hypotheses (off_is_small : norm off <= of_position (tolerance m)) (B_is_built : is_built m B).
+
+Let turn_by (u : vec R) := turn_about axis angle (turn_of (pose_angles m) (value v') u).
+Let A := itself m.
+Let at_m := pose_at m v.
+Let at_s := Pose (plus (position (pose_at m v')) off) turn_by.
+Let R_form := orientation_form prec m p.
+Let P_form := position_form prec m p.
+
+Lemma turn_by_is_linear u : turn_by u = combination u (turn_by unit_x) (turn_by unit_y) (turn_by unit_z).
+Proof. unfold turn_by. rewrite (turn_is_linear (pose_angles m) (value v') u) at 1. apply turn_about_is_linear. Qed.
+
+Lemma angle_is_in : is_in (Rabs (value (fun _ => 0) (of_orientation (tolerance m)))) (angle_of prec m).
 Proof.
-  intros h. assert (h' := h). destruct h' as [hx [hy hz]]. destruct (rotation_encloses a) as [x [y z]].
-  rewrite (turn_is_linear a (value v) u), (turn_is_linear a (value v') u'). unfold turned.
+  apply abs_is_in, (eval_encloses prec t _ (fun _ => 0) (fun _ => 0)). intros _. exact zero_encloses.
+Qed.
+
+Lemma orientation_encloses :
+  v_encloses (vx R_form) (turn_of (pose_angles m) (value v) unit_x) (turn_by unit_x) /\
+  v_encloses (vy R_form) (turn_of (pose_angles m) (value v) unit_y) (turn_by unit_y) /\
+  v_encloses (vz R_form) (turn_of (pose_angles m) (value v) unit_z) (turn_by unit_z).
+Proof.
+  destruct (rotation_encloses (pose_angles m)) as [x [y z]]. unfold R_form, orientation_form.
+  destruct (is_zero_number (of_orientation (tolerance m))) eqn:still.
+  - assert (zero : angle = 0).
+    { destruct (of_orientation (tolerance m)) as [q | | | | | | | | | |]; try discriminate still.
+      cbn in still, angle_is_small. apply zero_of in still. rewrite still, Rabs_R0 in angle_is_small.
+      assert (h := Rabs_pos angle). destruct (Req_dec angle 0) as [e | n]; [exact e |]. apply Rabs_pos_lt in n. lra. }
+    assert (same : forall u, turn_by u = turn_of (pose_angles m) (value v') u).
+    { intros u. unfold turn_by. rewrite zero. apply turn_about_by_nothing. }
+    rewrite !same. split; [| split]; assumption.
+  - assert (h := angle_is_in). split; [| split]; (eapply v_turned_encloses; eassumption).
+Qed.
+
+Lemma turned_encloses U u u' : v_encloses U u u' ->
+  v_encloses (turned prec R_form U) (turn at_m u) (turn at_s u').
+Proof.
+  intros h. assert (h' := h). destruct h' as [hx [hy hz]]. destruct orientation_encloses as [x [y z]].
+  change (turn at_m u) with (turn_of (pose_angles m) (value v) u). change (turn at_s u') with (turn_by u').
+  rewrite (turn_is_linear _ (value v) u), (turn_by_is_linear u'). unfold turned, combination.
   repeat first [apply v_add_encloses | apply v_scale_encloses; assumption].
 Qed.
 
-Variable m : machine.
-Let at_m := pose_at m v.
-Let at_s := pose_at m v'.
-Let rotation_form := rotation prec (pose_angles m) p.
-Let position_form :=
-  Vec (eval prec p (vx (pose_position m))) (eval prec p (vy (pose_position m))) (eval prec p (vz (pose_position m))).
+Lemma position_encloses : v_encloses P_form (position at_m) (position at_s).
+Proof.
+  unfold at_s. cbn [position]. rewrite <- ball_of_position.
+  apply v_within_encloses; [unfold balls; lia | rewrite ball_of_position; exact off_is_small |].
+  split; [| split]; apply value_encloses.
+Qed.
 
-Lemma position_encloses : v_encloses position_form (position at_m) (position at_s).
-Proof. split; [| split]; apply value_encloses. Qed.
+(** A point that is near to a stated one. *)
+Lemma point_encloses (point : vec Q) (within : Q) ball u : (ball < balls)%nat -> of_ball t ball = minus u (real_vec point) ->
+  near within u point -> v_encloses (v_within prec ball within (v_rational prec point)) (real_vec point) u.
+Proof.
+  intros l e h. rewrite <- (plus_of_minus u (real_vec point)) at 1. rewrite <- e.
+  apply v_within_encloses; [exact l | rewrite e; exact h | apply v_rational_encloses].
+Qed.
+
+Lemma anchors_are_near i : (i < 6)%nat ->
+  near (fst (nth6 (of_anchors (tolerance m)) i)) (fst (nth6 (anchors B) i)) (base (nth6 (cables m) i)) /\
+  near (snd (nth6 (of_anchors (tolerance m)) i)) (snd (nth6 (anchors B) i)) (platform (nth6 (cables m) i)).
+Proof.
+  destruct B_is_built as [h _]. revert i. unfold all6, fold6, zip6 in h. cbn [at1 at2 at3 at4 at5 at6] in h.
+  decompose [and] h. apply each_of_six; cbn [nth6]; split; assumption.
+Qed.
 
 (** ** The load at a pose *)
 
-Lemma range_is_in f q q' : enc f q q' -> is_in q' (range prec offset f).
-Proof. intros h. apply (tight_encloses prec t offset f q q' zero_in t_in) in h. apply h. Qed.
+Lemma range_is_in f q q' : enc f q q' -> is_in q' (range prec reach f).
+Proof. intros h. apply (tight_encloses prec t reach f q q' zero_in t_in as_many t_within) in h. apply h. Qed.
 
-Lemma size_is_in V u u' : v_encloses V u u' -> is_in (norm u') (size prec offset V).
+Lemma size_is_in V u u' : v_encloses V u u' -> is_in (norm u') (size prec reach V).
 Proof.
-  intros [a [b c]]. unfold size, norm, dot. apply sqrt_is_in.
-  repeat apply add_is_in; apply sqr_is_in; eapply range_is_in; eassumption.
+  intros [a [b c]]. unfold size. apply norm_of_is_in.
+  exact (conj (range_is_in _ _ _ a) (conj (range_is_in _ _ _ b) (range_is_in _ _ _ c))).
 Qed.
 
 Lemma v_dot_encloses V W u u' w w' : v_encloses V u u' -> v_encloses W w w' ->
   enc (v_dot prec V W) (dot u w) (dot u' w').
 Proof. intros [a [b c]] [d [e f]]. unfold v_dot, dot. by_parts. Qed.
 
-Lemma arm_encloses point :
-  v_encloses (arm_form prec offset rotation_form m point) (arm m at_m (real_vec point)) (arm m at_s (real_vec point)).
+Lemma arm_encloses U u u' : v_encloses U u u' ->
+  v_encloses (arm_form prec reach R_form m U) (arm A at_m u) (arm B at_s u').
 Proof.
-  apply v_tight_encloses. unfold arm. apply (turned_encloses (pose_angles m)).
-  apply v_sub_encloses; apply v_rational_encloses.
+  intros h. destruct B_is_built as [_ hp]. apply v_tight_encloses. unfold arm. apply turned_encloses.
+  apply v_sub_encloses; [exact h |]. now apply point_encloses; [unfold balls; lia | |].
 Qed.
+
+Lemma arm_of_rational_encloses point :
+  v_encloses (arm_form prec reach R_form m (v_rational prec point)) (arm A at_m (real_vec point)) (arm B at_s (real_vec point)).
+Proof. apply arm_encloses, v_rational_encloses. Qed.
 
 Lemma covector_encloses Y y r r' V : v_encloses (fst Y) (fst y) (fst y) -> v_encloses (snd Y) (snd y) (snd y) ->
   v_encloses V r r' -> v_encloses (covector_form prec Y V) (covector y r) (covector y r').
 Proof. intros a b c. unfold covector_form, covector. apply v_add_encloses; [exact a |]. now apply v_cross_encloses. Qed.
 
 Lemma seen_encloses a H h h' : v_encloses H h h' ->
-  v_encloses (seen_form prec rotation_form a H) (seen_from a (turn at_m) h) (seen_from a (turn at_s) h').
+  v_encloses (seen_form prec R_form a H) (seen_from a (turn at_m) h) (seen_from a (turn at_s) h').
 Proof.
-  intros e. destruct a; [exact e |]. destruct (rotation_encloses (pose_angles m)) as [x [y z]].
+  intros e. destruct a; [exact e |]. destruct orientation_encloses as [x [y z]].
   split; [| split]; (apply v_dot_encloses; [assumption | exact e]).
 Qed.
 
@@ -363,18 +523,20 @@ Qed.
 
 Lemma turn_is_sum u w : turn at_s (plus u w) = plus (turn at_s u) (turn at_s w).
 Proof.
-  change (turn at_s) with (turn_of (pose_angles m) (value v')).
-  rewrite (turn_is_linear _ _ (plus u w)), (turn_is_linear _ _ u), (turn_is_linear _ _ w).
-  generalize (turn_of (pose_angles m) (value v') unit_x), (turn_of (pose_angles m) (value v') unit_y),
-    (turn_of (pose_angles m) (value v') unit_z). by_coordinates.
+  change (turn at_s) with turn_by.
+  rewrite (turn_by_is_linear (plus u w)), (turn_by_is_linear u), (turn_by_is_linear w). apply combination_of_plus.
+Qed.
+
+Lemma turn_keeps_norm u : norm (turn at_s u) = norm u.
+Proof.
+  change (turn at_s) with turn_by. unfold norm, turn_by. f_equal.
+  rewrite turn_about_keeps_dot by exact axis_is_unit. apply turn_keeps_dot.
 Qed.
 
 Lemma dot_in_axes a h u : dot h (in_axes a at_s u) = dot (seen_from a (turn at_s) h) u.
 Proof.
   destruct a; cbn [in_axes seen_from]; [reflexivity |].
-  change (turn at_s) with (turn_of (pose_angles m) (value v')). rewrite (turn_is_linear _ _ u).
-  generalize (turn_of (pose_angles m) (value v') unit_x), (turn_of (pose_angles m) (value v') unit_y),
-    (turn_of (pose_angles m) (value v') unit_z). by_coordinates.
+  change (turn at_s) with turn_by. rewrite (turn_by_is_linear u). apply dot_of_combination.
 Qed.
 
 (** What a part is of: a form of what one wrench makes at m and at s, and what others add to that at s. *)
@@ -399,8 +561,8 @@ Proof.
 Qed.
 
 Lemma multiples_hold l u f q q' : enc f q q' ->
-  enc (fst (multiples prec offset l u f)) ((Q2R l + Q2R u) * / 2 * q) ((Q2R l + Q2R u) * / 2 * q') /\
-  is_in ((Q2R u - Q2R l) * / 2 * Rabs q') (snd (multiples prec offset l u f)).
+  enc (fst (multiples prec reach l u f)) ((Q2R l + Q2R u) * / 2 * q) ((Q2R l + Q2R u) * / 2 * q') /\
+  is_in ((Q2R u - Q2R l) * / 2 * Rabs q') (snd (multiples prec reach l u f)).
 Proof.
   intros h. cbn [multiples fst snd]. split.
   - apply mul_encloses; [apply constant_encloses, middle_is_in | exact h].
@@ -408,14 +570,14 @@ Proof.
 Qed.
 
 Lemma vectors_hold set H h h' u : v_encloses H h h' -> in_vectors set u ->
-  part_holds (vectors_part prec offset set H) (dot h' u).
+  part_holds (vectors_part prec reach set H) (dot h' u).
 Proof.
   intros e hu. assert (rational := v_rational_encloses). destruct set as [r | r n | d l w]; cbn [vectors_part].
   - apply only_holds. apply (symmetric_is_in (Q2R r * norm h')); [| now apply ball_is_below].
     apply mul_is_in; [apply fraction_is_in | now apply (size_is_in _ h)].
   - apply only_holds. assert (N := size_is_in _ _ _ (rational n)).
     assert (top : is_in (Q2R r * norm (cross (real_vec n) h'))
-        (mul prec (fraction prec r) (size prec offset (v_cross prec (v_rational prec n) H)))).
+        (mul prec (fraction prec r) (size prec reach (v_cross prec (v_rational prec n) H)))).
     { apply mul_is_in; [apply fraction_is_in |]. eapply size_is_in, v_cross_encloses; [apply rational | exact e]. }
     destruct (Req_dec (norm (real_vec n)) 0) as [z | z].
     + apply (symmetric_is_in (Rabs (dot h' u))); [| apply Rle_refl].
@@ -424,7 +586,7 @@ Proof.
       * now apply div_is_in.
       * now apply disc_is_below.
   - destruct (segment_is_near d l w u h' hu) as [f [near eq]].
-    assert (a : enc (f_div prec (v_dot prec H (v_rational prec d)) (constant prec (size prec offset (v_rational prec d))))
+    assert (a : enc (f_div prec (v_dot prec H (v_rational prec d)) (constant prec (size prec reach (v_rational prec d))))
         (dot h (real_vec d) / norm (real_vec d)) (dot h' (real_vec d) / norm (real_vec d))).
     { apply div_encloses; [apply v_dot_encloses; [exact e | apply rational] |]. apply constant_encloses. eapply size_is_in, rational. }
     destruct (multiples_hold l w _ _ _ a) as [x y]. eexists; eexists. split; [exact x |]. cbn [snd].
@@ -434,23 +596,20 @@ Qed.
 
 Lemma weight_holds Y y l u g c r mass center : v_encloses (fst Y) (fst y) (fst y) -> v_encloses (snd Y) (snd y) (snd y) ->
   Q2R l <= mass <= Q2R u -> norm (minus center (real_vec c)) <= Q2R r ->
-  part_holds (weight_part prec offset rotation_form m Y l u g c r)
-    (along_row y (force_at m at_s center (times mass (real_vec g)))).
+  part_holds (weight_part prec reach R_form m Y l u g c r)
+    (along_row y (force_at B at_s center (times mass (real_vec g)))).
 Proof.
   intros hf hm hmass hc. rewrite along_force.
   set (delta := minus center (real_vec c)) in hc.
-  assert (eq : dot (covector y (arm m at_s center)) (times mass (real_vec g)) =
-    mass * (dot (covector y (arm m at_s (real_vec c))) (real_vec g) + dot (turn at_s delta) (cross (real_vec g) (snd y)))).
-  { replace (arm m at_s center) with (plus (arm m at_s (real_vec c)) (turn at_s delta)).
-    - unfold covector. generalize (arm m at_s (real_vec c)), (turn at_s delta), (real_vec g). destruct y as [f k].
-      by_coordinates.
-    - unfold arm. rewrite <- turn_is_sum. f_equal. unfold delta. generalize (real_vec c), (real_vec (load_point m)).
-      intros a b. clear. revert center a b. by_coordinates. }
+  assert (eq : dot (covector y (arm B at_s center)) (times mass (real_vec g)) =
+    mass * (dot (covector y (arm B at_s (real_vec c))) (real_vec g) + dot (turn at_s delta) (cross (real_vec g) (snd y)))).
+  { replace (arm B at_s center) with (plus (arm B at_s (real_vec c)) (turn at_s delta)).
+    - apply dot_of_moved.
+    - unfold arm. rewrite <- turn_is_sum. f_equal. symmetry. apply minus_in_two_steps. }
   assert (below : Rabs (dot (turn at_s delta) (cross (real_vec g) (snd y))) <= Q2R r * norm (cross (real_vec g) (snd y))).
   { apply Rle_trans with (1 := dot_is_below _ _). apply Rmult_le_compat_r; [apply norm_is_positive |].
-    replace (norm (turn at_s delta)) with (norm delta); [exact hc |]. unfold norm. f_equal. symmetry.
-    apply (turn_keeps_dot (pose_angles m) (value v')). }
-  assert (a := v_dot_encloses _ _ _ _ _ _ (covector_encloses Y y _ _ _ hf hm (arm_encloses c)) (v_rational_encloses g)).
+    rewrite turn_keeps_norm. exact hc. }
+  assert (a := v_dot_encloses _ _ _ _ _ _ (covector_encloses Y y _ _ _ hf hm (arm_of_rational_encloses c)) (v_rational_encloses g)).
   destruct (multiples_hold l u _ _ _ a) as [x z]. eexists; eexists. split; [exact x |]. cbn [weight_part snd].
   rewrite eq. eapply symmetric_is_in; [| now apply weight_is_near; [exact hmass | exact below]].
   apply add_is_in; [exact z |]. apply mul_is_in.
@@ -476,14 +635,14 @@ Proof.
       w = wrench_plus (wrench_times t (real_wrench a)) (wrench_times (1 - t) u)) in h.
     destruct h as [x [u [[lo hi] [hu eq]]]]. subst w. rewrite along_plus, !along_times.
     change (hull f (a :: b :: l)) with (I.join (f a) (hull f (b :: l))).
-    assert (A := join_left _ _ (hull f (b :: l)) (hf a)). assert (B := join_right _ (f a) _ (IH u hu)).
-    apply (between_is_in _ _ _ _ A B).
+    assert (above := join_left _ _ (hull f (b :: l)) (hf a)). assert (below := join_right _ (f a) _ (IH u hu)).
+    apply (between_is_in _ _ _ _ above below).
     set (p1 := along_row y (real_wrench a)). set (p2 := along_row y u).
     unfold Rmin, Rmax. destruct (Rle_dec (p1 - d) (p2 - d)); nra.
 Qed.
 
 Lemma cases_hold H K h h' k k' l w : v_encloses H h h' -> v_encloses K k k' -> in_hull l w ->
-  part_holds (cases_part prec offset H K l) (along_row (h', k') w).
+  part_holds (cases_part prec reach H K l) (along_row (h', k') w).
 Proof.
   intros a b hw. destruct l as [| u l]; [contradiction hw |]. cbn [cases_part].
   exists (along_row (h, k) (real_wrench u)), (along_row (h', k') (real_wrench u)). split; [now apply case_encloses |].
@@ -516,14 +675,14 @@ Proof.
       apply (hc 4%nat); lia | apply (hc 5%nat); lia].
 Qed.
 
-Lemma item_holds i w : in_scope [i] = true -> in_item m at_s i w ->
-  part_holds (item_part prec offset rotation_form m cI i) (along_row (row_of c) w).
+Lemma item_holds i w : in_scope [i] = true -> in_item B at_s i w ->
+  part_holds (item_part prec reach R_form m cI i) (along_row (row_of c) w).
 Proof.
   intros scope h. destruct row_encloses as [hf hm].
-  assert (cov := fun point => covector_encloses _ _ _ _ _ hf hm (arm_encloses point)).
-  destruct i as [center shape | l u g point r | set a point | set a | cases a point].
+  assert (cov := fun point => covector_encloses _ _ _ _ _ hf hm (arm_of_rational_encloses point)).
+  destruct i as [center shift shape | l u g point r | set a point | set a | cases a point].
   - cbn [item_part]. rewrite along_row_of. unfold in_scope in scope. cbn [forallb] in scope.
-    rewrite andb_true_r in scope. destruct (ellipsoid_is_in m at_s c cI center shape w hc scope h) as [x y].
+    rewrite andb_true_r in scope. destruct (ellipsoid_is_in B at_s c cI center shift shape w hc scope h) as [x y].
     exists (along_six c (map6 Q2R center)), (along_six c (map6 Q2R center)).
     split; [now apply constant_encloses | exact y].
   - destruct h as [mass [center [hmass [near ->]]]]. apply weight_holds; assumption.
@@ -535,8 +694,8 @@ Proof.
     eapply (cases_hold _ _ _ _ _ _ cases u); [apply seen_encloses, cov | apply seen_encloses, hm | exact hu].
 Qed.
 
-Lemma load_holds l : in_scope l = true -> forall w, in_items m at_s l w ->
-  part_holds (load_part prec offset rotation_form m cI l) (along_row (row_of c) w).
+Lemma load_holds l : in_scope l = true -> forall w, in_items B at_s l w ->
+  part_holds (load_part prec reach R_form m cI l) (along_row (row_of c) w).
 Proof.
   induction l as [| i l IH]; intros scope w h.
   - cbn [in_items] in h. subst w. change (part_holds (only prec (zero prec)) (along_row (row_of c) (pure_moment (Vec 0 0 0)))).
@@ -547,9 +706,9 @@ Proof.
     assert (one_item : in_scope [i] = true) by (unfold in_scope; cbn [forallb]; now rewrite andb_true_r).
     destruct (item_holds i a one_item ha) as [q [q' [e d]]]. destruct (IH s2 b hb) as [p1 [p1' [e1 d1]]].
     exists (q + p1), (q' + p1'). rewrite along_plus.
-    change (load_part prec offset rotation_form m cI (i :: l)) with
-      (let p := item_part prec offset rotation_form m cI i in
-       let t := load_part prec offset rotation_form m cI l in (f_add prec (fst p) (fst t), add prec (snd p) (snd t))).
+    change (load_part prec reach R_form m cI (i :: l)) with
+      (let p := item_part prec reach R_form m cI i in
+       let t := load_part prec reach R_form m cI l in (f_add prec (fst p) (fst t), add prec (snd p) (snd t))).
     cbv zeta. cbn [fst snd]. split; [now apply add_encloses |].
     replace (along_row (row_of c) a + along_row (row_of c) b - (q' + p1')) with
       ((along_row (row_of c) a - q') + (along_row (row_of c) b - p1')) by ring.
@@ -560,20 +719,30 @@ End Row.
 
 (** ** A pose *)
 
-Lemma column_encloses c k : (k < 6)%nat ->
-  enc (nth6 (column_form prec offset rotation_form position_form m c) k)
-      (nth6 (density_column m at_m c) k) (nth6 (density_column m at_s c) k).
+Lemma columns_enclose i k : (i < 6)%nat -> (k < 6)%nat ->
+  enc (nth6 (nth6 (column_forms prec reach R_form P_form m) i) k)
+      (densities_matrix A at_m k i) (densities_matrix B at_s k i).
 Proof.
-  assert (d : v_encloses (v_tight prec offset (v_sub prec (v_add prec position_form
-      (turned prec rotation_form (v_rational prec (platform c)))) (v_rational prec (base c))))
-    (cable_vector at_m c) (cable_vector at_s c)).
-  { apply v_tight_encloses. unfold cable_vector. apply v_sub_encloses; [| apply v_rational_encloses].
-    apply v_add_encloses; [apply position_encloses |].
-    exact (turned_encloses (pose_angles m) _ _ _ (v_rational_encloses (platform c))). }
-  assert (r := arm_encloses (platform c)).
+  intros li lk. unfold column_forms, densities_matrix. rewrite !nth6_zip.
+  replace (nth6 (Six 0%nat 1%nat 2%nat 3%nat 4%nat 5%nat) i) with i by (clear lk; revert i li; apply each_of_six; reflexivity).
+  destruct (anchors_are_near i li) as [hb hp].
+  assert (eb := ball_of_base i li). assert (ep := ball_of_platform i li).
+  replace (nth6 (anchors A) i) with (real_vec (base (nth6 (cables m) i)), real_vec (platform (nth6 (cables m) i)))
+    by (unfold A, itself; cbn [anchors]; now rewrite nth6_map).
+  generalize dependent (nth6 (of_anchors (tolerance m)) i). generalize dependent (nth6 (cables m) i).
+  generalize dependent (nth6 (anchors B) i). intros a c eb ep w hb hp.
+  assert (u := point_encloses (platform c) (snd w) (4 + 2 * i) (snd a) ltac:(unfold balls; lia) ep hp).
+  assert (d : v_encloses (v_tight prec reach (v_sub prec (v_add prec P_form
+      (turned prec R_form (v_within prec (4 + 2 * i) (snd w) (v_rational prec (platform c)))))
+      (v_within prec (3 + 2 * i) (fst w) (v_rational prec (base c)))))
+    (cable_vector at_m (real_vec (base c), real_vec (platform c))) (cable_vector at_s a)).
+  { apply v_tight_encloses. unfold cable_vector. cbn [fst snd].
+    apply v_sub_encloses; [| apply point_encloses; [unfold balls; lia | exact eb | exact hb]].
+    apply v_add_encloses; [apply position_encloses | now apply turned_encloses]. }
+  assert (r := arm_encloses _ _ _ u).
   assert (x := v_cross_encloses _ _ _ _ _ _ r d).
   destruct d as [dx [dy dz]], x as [xx [xy xz]].
-  revert k. apply each_of_six; cbn [nth6 column_form density_column at1 at2 at3 at4 at5 at6]; assumption.
+  revert k lk. apply each_of_six; cbn [nth6 column_form density_column at1 at2 at3 at4 at5 at6]; assumption.
 Qed.
 
 Lemma f_sum_encloses l r r' : (forall k, (k < 6)%nat -> enc (nth6 l k) (r k) (r' k)) ->
@@ -595,60 +764,58 @@ Proof.
 Qed.
 
 (* So that Coq's kernel compares what these are applied to, before it looks into them. *)
-Strategy 1000 [decide product error_ranges rest_ranges rotation eval column_form length_range].
+Strategy 1000 [decide product error_ranges rest_ranges orientation_form position_form column_forms length_range].
 Strategy 1000 [densities_matrix density_column pose_at SixEquations.total SixEquations.error6 along_six rest load_part].
 Strategy expand [check_pose].
 
-Theorem pose_is_sound tension_margin length_margin b : in_scope (load m) = true ->
-  check_pose prec offset m tension_margin length_margin b p = true ->
-  feasible_at m tension_margin length_margin at_s.
+Theorem pose_is_sound tension_margin length_margin x : in_scope (load m) = true ->
+  check_pose prec reach m tension_margin length_margin x p = true ->
+  feasible_at m B tension_margin length_margin at_s.
 Proof.
   intros scope h. unfold check_pose in h. cbv zeta in h.
-  fold rotation_form position_form in h.
-  set (columns := map6 (column_form prec offset rotation_form position_form m) (cables m)) in h.
-  set (CI := map6 (map6 (number prec (scale b))) (inverse b)) in h.
-  set (xI := map6 (number prec (scale b)) (densities b)) in h.
-  set (C := fun i k => Q2R (nth6 (nth6 (inverse b) i) k # Pos.pow 2 (scale b))).
-  set (x0 := fun i => Q2R (nth6 (densities b) i # Pos.pow 2 (scale b))).
-  set (A := densities_matrix m at_s). set (A' := densities_matrix m at_m).
+  fold R_form P_form in h.
+  set (columns := column_forms prec reach R_form P_form m) in h.
+  set (CI := map6 (map6 (number prec (scale x))) (inverse x)) in h.
+  set (xI := map6 (number prec (scale x)) (densities x)) in h.
+  set (C := fun i k => Q2R (nth6 (nth6 (inverse x) i) k # Pos.pow 2 (scale x))).
+  set (x0 := fun i => Q2R (nth6 (densities x) i # Pos.pow 2 (scale x))).
+  set (D := densities_matrix B at_s). set (D' := densities_matrix A at_m).
   assert (hC : forall i k, is_in (C i k) (nth6 (nth6 CI i) k)).
   { intros i k. unfold CI. rewrite !nth6_map. apply number_is_in. }
   assert (hx : forall i, is_in (x0 i) (nth6 xI i)).
   { intros i. unfold xI. rewrite nth6_map. apply number_is_in. }
-  assert (hcol : forall i k, (k < 6)%nat -> enc (nth6 (nth6 columns i) k) (A' k i) (A k i)).
-  { intros i k l. unfold columns. rewrite nth6_map. now apply column_encloses. }
-  assert (hCD : forall i j, enc (nth6 (nth6 (product prec CI columns) i) j)
-      (total (fun k => C i k * A' k j)) (total (fun k => C i k * A k j))).
-  { intros i j. unfold product. rewrite !nth6_map. apply f_sum_encloses. intros k l. rewrite nth6_zip.
+  assert (hcol : forall i k, (i < 6)%nat -> (k < 6)%nat -> enc (nth6 (nth6 columns i) k) (D' k i) (D k i)).
+  { intros i k li lk. now apply columns_enclose. }
+  assert (hCD : forall i j, (j < 6)%nat -> enc (nth6 (nth6 (product prec CI columns) i) j)
+      (total (fun k => C i k * D' k j)) (total (fun k => C i k * D k j))).
+  { intros i j l. unfold product. rewrite !nth6_map. apply f_sum_encloses. intros k lk. rewrite nth6_zip.
     apply mul_encloses; [apply constant_encloses, hC | now apply hcol]. }
   assert (hE : forall i, (i < 6)%nat -> forall j, (j < 6)%nat ->
-      is_in (error6 C A i j) (nth6 (nth6 (error_ranges prec offset (product prec CI columns)) i) j)).
-  { intros i li j lj. unfold error_ranges. rewrite !nth6_zip. apply (range_is_in _ (error6 C A' i j)).
+      is_in (error6 C D i j) (nth6 (nth6 (error_ranges prec reach (product prec CI columns)) i) j)).
+  { intros i li j lj. unfold error_ranges. rewrite !nth6_zip. apply (range_is_in _ (error6 C D' i j)).
     unfold SixEquations.error6. rewrite <- (units_are_delta i j) by assumption.
-    apply sub_encloses; [apply constant_encloses, integer_is_in | apply hCD]. }
-  assert (hL : forall i, (i < 6)%nat -> is_in (length_of m at_s i) (nth6 (map6 (length_range prec offset) columns) i)).
-  { intros i li. rewrite nth6_map. apply (size_is_in _ (cable_vector at_m (nth6 (cables m) i))).
-    split; [| split].
-    - apply (hcol i 0%nat). lia.
-    - apply (hcol i 1%nat). lia.
-    - apply (hcol i 2%nat). lia. }
-  destruct (decide_is_sound m tension_margin length_margin _ _ _ _ h (length_of m at_s) x0 (error6 C A) hL
+    apply sub_encloses; [apply constant_encloses, integer_is_in | now apply hCD]. }
+  assert (hL : forall i, (i < 6)%nat -> is_in (length_of B at_s i) (nth6 (map6 (length_range prec reach) columns) i)).
+  { intros i li. rewrite nth6_map. apply (range_is_in _ (norm (cable_vector at_m (nth6 (anchors A) i)))).
+    apply sqrt_encloses, v_dot_encloses; (split; [| split]);
+      first [apply (hcol i 0%nat) | apply (hcol i 1%nat) | apply (hcol i 2%nat)]; (exact li || lia). }
+  destruct (decide_is_sound m tension_margin length_margin _ _ _ _ h (length_of B at_s) x0 (error6 C D) hL
     (fun i _ => hx i) hE) as [small [positive [lengths loads]]].
-  apply (pose_is_feasible m at_s tension_margin length_margin C x0
-    (most (fun i => total (fun j => Rabs (error6 C A i j))))); try assumption.
-  - apply (most_bounds (fun i => total (fun j => Rabs (error6 C A i j)))).
+  apply (pose_is_feasible m B at_s tension_margin length_margin C x0
+    (most (fun i => total (fun j => Rabs (error6 C D i j))))); try assumption.
+  - apply (most_bounds (fun i => total (fun j => Rabs (error6 C D i j)))).
   - intros w hw. apply loads. intros i li. unfold rest_ranges. rewrite !nth6_zip. cbv zeta.
-    replace (rest m at_s C x0 w i) with
-      (along_six (C i) (six_of w) - total (fun j => total (fun k => C i k * A k j) * x0 j)).
+    replace (rest B at_s C x0 w i) with
+      (along_six (C i) (six_of w) - total (fun j => total (fun k => C i k * D k j) * x0 j)).
     + rewrite <- along_row_of.
       destruct (load_holds (C i) (nth6 CI i) (fun k _ => hC i k) (load m) scope w hw) as [q [q' [e d]]].
-      set (S := total (fun j => total (fun k => C i k * A k j) * x0 j)).
+      set (S := total (fun j => total (fun k => C i k * D k j) * x0 j)).
       replace (along_row (row_of (C i)) w - S) with ((q' - S) + (along_row (row_of (C i)) w - q')) by ring.
       apply add_is_in; [| exact d].
-      apply (range_is_in _ (q - total (fun j => total (fun k => C i k * A' k j) * x0 j))).
+      apply (range_is_in _ (q - total (fun j => total (fun k => C i k * D' k j) * x0 j))).
       apply sub_encloses; [exact e |]. apply f_sum_encloses. intros j lj. rewrite nth6_zip.
-      apply mul_encloses; [apply hCD | apply constant_encloses, hx].
-    + exact (rest_splits (C i) (nth6 (six_of w)) x0 A).
+      apply mul_encloses; [now apply hCD | apply constant_encloses, hx].
+    + exact (rest_splits (C i) (nth6 (six_of w)) x0 D).
 Qed.
 
 End Offset.
@@ -662,23 +829,24 @@ Qed.
 
 (** A motion, and what the checker has of it. *)
 Definition follows (f : motion_form) (q : R -> nat -> R) : Prop :=
-  forall middle s m S, is_in middle m -> is_in middle S -> is_in s S ->
-  forall i, encloses (s - middle) (f m S i) (q middle i) (q s i).
+  forall middle s m S t, is_in middle m -> is_in middle S -> is_in s S -> of_place t = s - middle ->
+  forall i, encloses t (f m S i) (q middle i) (q s i).
 
 Lemma line_follows v w : follows (line_form prec v w) (on_line v w).
 Proof.
-  intros middle s m S hm hm' hs i. unfold on_line, line_form. cbv zeta.
+  intros middle s m S t hm hm' hs ht i. unfold on_line, line_form. cbv zeta.
   assert (a := point_is_in v i). assert (k := sub_is_in prec _ _ _ _ (point_is_in w i) a).
   split; [| split; [| split]]; cbn [mid over slope].
   - apply add_is_in; [exact a | now apply mul_is_in].
   - apply add_is_in; [exact a | now apply mul_is_in].
   - apply add_is_in; [exact a | now apply mul_is_in].
-  - exists (coordinate w i - coordinate v i). split; [exact k | unfold sloped; ring].
+  - exists (k_place (coordinate w i - coordinate v i)). split; [exact (conj k no_blocks) |].
+    unfold sloped. rewrite moved_place, ht. ring.
 Qed.
 
 Lemma spline_follows a b c d : follows (spline_form prec a b c d) (on_spline a b c d).
 Proof.
-  intros middle s m S hm hm' hs i.
+  intros middle s m S t hm hm' hs ht i.
   set (A := coordinate a i). set (B := coordinate b i). set (C := coordinate c i). set (D := coordinate d i).
   assert (powers : forall x, on_spline a b c d x i =
     (B + (C - B - (B - A)) / 6) + x * ((B - A + (C - B)) / 2 + x * ((C - B - (B - A)) / 2 +
@@ -687,9 +855,10 @@ Proof.
   assert (hA := point_is_in a i). assert (hB := point_is_in b i). assert (hC := point_is_in c i).
   assert (hD := point_is_in d i). fold A in hA. fold B in hB. fold C in hC. fold D in hD.
   assert (two := integer_is_in prec 2). assert (six := integer_is_in prec 6).
-  assert (place : encloses (s - middle) (Form m S (one prec)) middle s).
+  assert (place : encloses t (Form m S (one prec) []) middle s).
   { split; [exact hm | split; [exact hm' | split; [exact hs |]]]. cbn [slope].
-    exists 1. split; [apply (integer_is_in prec 1) | unfold sloped; ring]. }
+    exists (k_place 1). split; [exact (conj (integer_is_in prec 1) no_blocks) |].
+    unfold sloped. rewrite moved_place, ht. ring. }
   repeat first [apply add_encloses | (apply mul_encloses; [exact place |])];
     apply constant_encloses; repeat first [assumption | apply add_is_in | apply sub_is_in | apply mul_is_in | apply div_is_in].
 Qed.
@@ -706,8 +875,42 @@ Section Certificate.
 
 Variable c : certificate.
 Hypothesis scope : in_scope (load (subject c)) = true.
+Hypothesis turns_little : below prec (angle_of prec (subject c)) (one prec) = true.
 
-Notation holds q s := (feasible_at (subject c) (tension_margin c) (length_margin c) (pose_at (subject c) (q s))).
+Lemma angle_is_below_1 : Rabs (value (fun _ => 0) (of_orientation (tolerance (subject c)))) < 1.
+Proof.
+  eapply below_is_true; [exact turns_little | apply (angle_is_in (k_place 0)) | apply (integer_is_in prec 1)].
+Qed.
+
+(** How a machine deviates at a place: by these vectors. *)
+Definition change_of (m : machine) (place : R) (B : built) (off axis : vec R) (angle : R) : change :=
+  let at_base i := minus (fst (nth6 (anchors B) i)) (real_vec (base (nth6 (cables m) i))) in
+  let at_platform i := minus (snd (nth6 (anchors B) i)) (real_vec (platform (nth6 (cables m) i))) in
+  Change place (fun b => nth b
+    [off; moves_about axis angle; minus (load_at B) (real_vec (load_point m));
+     at_base 0%nat; at_platform 0%nat; at_base 1%nat; at_platform 1%nat; at_base 2%nat; at_platform 2%nat;
+     at_base 3%nat; at_platform 3%nat; at_base 4%nat; at_platform 4%nat; at_base 5%nat; at_platform 5%nat] (Vec 0 0 0)).
+
+Lemma deviations_are_within m place B off axis angle : is_built m B -> norm off <= of_position (tolerance m) ->
+  norm axis = 1 -> Rabs angle <= Rabs (value (fun _ => 0) (of_orientation (tolerance m))) ->
+  deviates_within (of_ball (change_of m place B off axis angle)) balls (radii prec m).
+Proof.
+  intros hb ho hn ha. assert (near_i := anchors_are_near m B hb). destruct hb as [_ hp].
+  assert (of_turn : exists r, norm (moves_about axis angle) <= r /\ is_in r (angle_of prec m)).
+  { eexists. split; [| apply (angle_is_in (k_place 0))]. unfold moves_about. rewrite norm_of_times, hn, Rmult_1_r.
+    exact (Rle_trans _ _ _ (sin_is_below angle) ha). }
+  assert (stated : forall u q, norm u <= Q2R q -> exists r, norm u <= r /\ is_in r (fraction prec q)).
+  { intros u q h. exists (Q2R q). split; [exact h | apply fraction_is_in]. }
+  intros b lt. unfold balls in lt.
+  do 15 (destruct b as [| b]; [cbn [of_ball change_of nth radii];
+    first [exact of_turn | apply stated; first [exact ho | exact hp |
+      apply (near_i 0%nat); lia | apply (near_i 1%nat); lia | apply (near_i 2%nat); lia |
+      apply (near_i 3%nat); lia | apply (near_i 4%nat); lia | apply (near_i 5%nat); lia]] |]).
+  lia.
+Qed.
+
+Notation holds q s := (forall b P, is_built (subject c) b -> is_tracked (subject c) (pose_at (subject c) (q s)) P ->
+  feasible_at (subject c) b (tension_margin c) (length_margin c) P).
 
 Section Motion.
 
@@ -727,10 +930,16 @@ Proof.
     - apply join_left, fraction_is_in.
     - apply join_right, fraction_is_in.
     - rewrite Rmin_left, Rmax_right by lra. lra. }
-  refine (pose_is_sound (s - Q2R middle) _ _ _ _ (q (Q2R middle)) (q s)
-    (f_follows _ _ _ _ hm hm' hs) (subject c) _ _ b scope h).
-  - replace 0 with (Q2R middle - Q2R middle) by ring. now apply sub_is_in.
-  - now apply sub_is_in.
+  intros B P hb [off [n [angle [ho [hn [ha ->]]]]]].
+  set (t := change_of (subject c) (s - Q2R middle) B off n angle).
+  assert (forms := f_follows _ _ _ _ t hm hm' hs eq_refl).
+  refine (pose_is_sound t (sub prec S (fraction prec middle), radii prec (subject c)) _ _ eq_refl
+    (deviations_are_within _ _ _ _ _ _ hb ho hn ha) _ (q (Q2R middle)) (q s) forms (subject c) B off n angle hn ha
+    angle_is_below_1 eq_refl eq_refl eq_refl _ _ ho hb _ _ b scope h).
+  - cbn [fst]. replace 0 with (Q2R middle - Q2R middle) by ring. now apply sub_is_in.
+  - cbn [fst]. now apply sub_is_in.
+  - apply each_of_six; reflexivity.
+  - apply each_of_six; reflexivity.
 Qed.
 
 Lemma boxes_are_sound l : forall start, check_boxes prec c f start l = true ->
@@ -766,9 +975,9 @@ End Precision.
 (** What the checker accepts is true. *)
 Theorem check_sound c : check c = true -> statement c.
 Proof.
-  unfold check. cbv zeta. rewrite !andb_true_iff. intros [[many scope] h].
+  unfold check. cbv zeta. rewrite !andb_true_iff. intros [[[many scope] little] h].
   assert (all := motions_follow (F.PtoP (bits c)) (motion c) (path c)).
-  split; [| exact (motions_are_sound (F.PtoP (bits c)) c scope _ _ all (boxes c) h)].
+  split; [| exact (motions_are_sound (F.PtoP (bits c)) c scope little _ _ all (boxes c) h)].
   destruct all; [discriminate many | discriminate].
 Qed.
 

@@ -58,12 +58,12 @@ Inductive vectors := Ball (radius : Q) | Disc (radius : Q) (normal : vec Q)
 (** The axes in which vectors are stated. *)
 Inductive axes := OfWorld | OfPlatform.
 
-(** The load is a sum of sets of wrenches. An ellipsoid is the set of all w with (w - center)' shape (w - center) <= 1;
-    its six coordinates are force and moment. A weight has any mass from [lower] to [upper], and its centre of gravity
+(** The load is a sum of sets of wrenches. An ellipsoid is the set of all w with (w - c)' shape (w - c) <= 1, where c is
+    [center] plus any share of [shift] from -1 to 1; its six coordinates are force and moment. A weight has any mass from [lower] to [upper], and its centre of gravity
     anywhere within [tolerance] of [point], a point in the platform's axes. Forces act at such a point. Load cases are
     wrenches, force and moment about such a point, and all that are between them. *)
 Inductive item :=
-  | Ellipsoid (center : six Q) (shape : six (six Q))
+  | Ellipsoid (center shift : six Q) (shape : six (six Q))
   | Weight (lower upper : Q) (gravity : vec Q) (point : vec Q) (tolerance : Q)
   | Force (set : vectors) (a : axes) (point : vec Q)
   | Moment (set : vectors) (a : axes)
@@ -78,8 +78,12 @@ Inductive expr :=
 Inductive angles := TiltTorsion (phi theta sigma : expr) | RollPitchYaw (roll pitch yaw : expr)
   | Zyz (alpha beta gamma : expr).
 
+(** How far a machine may be from what is stated, in any direction: each cable's two anchors, and the load point; and how
+    far the platform may be from where it is meant to be, and by what angle turned. *)
+Record tolerances := Tolerances { of_anchors : six (Q * Q); of_load_point : Q; of_position : Q; of_orientation : expr }.
+
 Record machine := Machine { cables : six cable; load_point : vec Q; load : list item;
-                            pose_position : vec expr; pose_angles : angles }.
+                            pose_position : vec expr; pose_angles : angles; tolerance : tolerances }.
 
 (** ** Poses *)
 
@@ -114,25 +118,47 @@ Definition pose_at (m : machine) (p : nat -> R) : pose :=
                  | Zyz alpha beta gamma => rot_z (v alpha) (rot_y (v beta) (rot_z (v gamma) u))
                  end).
 
+(** ** Tolerances *)
+
+(** A machine as it is built: the anchors of each cable, at the base and in the platform's axes, and the load point. *)
+Record built := Built { anchors : six (vec R * vec R); load_at : vec R }.
+
+Definition near (distance : Q) (u : vec R) (v : vec Q) : Prop := norm (minus u (real_vec v)) <= distance.
+
+Definition is_built (m : machine) (b : built) : Prop :=
+  let close c t a := near (fst t) (fst a) (base c) /\ near (snd t) (snd a) (platform c) in
+  all6 (zip6 (fun close a => close a) (zip6 close (cables m) (of_anchors (tolerance m))) (anchors b)) /\
+  near (of_load_point (tolerance m)) (load_at b) (load_point m).
+
+(** Turned about the axis n, a unit vector, by an angle. *)
+Definition turn_about (n : vec R) (angle : R) (v : vec R) : vec R :=
+  plus (plus (times (cos angle) v) (times (sin angle) (cross n v))) (times ((1 - cos angle) * dot n v) n).
+
+(** Where the platform may be while it is meant to be at P. *)
+Definition is_tracked (m : machine) (P P' : pose) : Prop :=
+  exists (off n : vec R) (angle : R),
+    norm off <= of_position (tolerance m) /\ norm n = 1 /\
+    Rabs angle <= Rabs (value (fun _ => 0) (of_orientation (tolerance m))) /\
+    P' = Pose (plus (position P) off) (fun v => turn_about n angle (turn P v)).
+
 (** ** Statics *)
 
 (** The vector from a cable's base anchor to its platform anchor. *)
-Definition cable_vector (P : pose) (c : cable) : vec R :=
-  minus (plus (position P) (turn P (real_vec (platform c)))) (real_vec (base c)).
+Definition cable_vector (P : pose) (a : vec R * vec R) : vec R := minus (plus (position P) (turn P (snd a))) (fst a).
 
-Definition cable_length (P : pose) (c : cable) : R := norm (cable_vector P c).
+Definition cable_length (P : pose) (a : vec R * vec R) : R := norm (cable_vector P a).
 
 (** The vector from the load point to a point in the platform's axes, and the wrench of a force that acts there. *)
-Definition arm (m : machine) (P : pose) (point : vec R) : vec R := turn P (minus point (real_vec (load_point m))).
-Definition force_at (m : machine) (P : pose) (point f : vec R) : wrench := Wrench f (cross (arm m P point) f).
+Definition arm (b : built) (P : pose) (point : vec R) : vec R := turn P (minus point (load_at b)).
+Definition force_at (b : built) (P : pose) (point f : vec R) : wrench := Wrench f (cross (arm b P point) f).
 
 (** The wrench that a tension of 1 N of a cable balances: a column of the force Jacobian. *)
-Definition column (m : machine) (P : pose) (c : cable) : wrench :=
-  force_at m P (real_vec (platform c)) (times (/ cable_length P c) (cable_vector P c)).
+Definition column (b : built) (P : pose) (a : vec R * vec R) : wrench :=
+  force_at b P (snd a) (times (/ cable_length P a) (cable_vector P a)).
 
 (** The wrench that tensions [f] balance, one number a cable: J f. *)
-Definition balanced (m : machine) (P : pose) (f : six R) : wrench :=
-  fold6 wrench_plus (zip6 (fun c t => wrench_times t (column m P c)) (cables m) f).
+Definition balanced (b : built) (P : pose) (f : six R) : wrench :=
+  fold6 wrench_plus (zip6 (fun a t => wrench_times t (column b P a)) (anchors b) f).
 
 (** The wrenches of the load. *)
 Definition six_of (w : wrench) : six R :=
@@ -160,36 +186,36 @@ Definition in_axes (a : axes) (P : pose) (v : vec R) : vec R :=
   match a with OfWorld => v | OfPlatform => turn P v end.
 Definition pure_moment (v : vec R) : wrench := Wrench (Vec 0 0 0) v.
 
-Definition in_item (m : machine) (P : pose) (i : item) (w : wrench) : Prop :=
+Definition in_item (b : built) (P : pose) (i : item) (w : wrench) : Prop :=
   match i with
-  | Ellipsoid center shape =>
-      let z := zip6 (fun (x : R) (c : Q) => x - c) (six_of w) center in
+  | Ellipsoid center shift shape => exists k : R, -1 <= k <= 1 /\
+      let z := zip6 Rminus (six_of w) (zip6 (fun c d : Q => c + k * d) center shift) in
       sum6 (zip6 (fun (row : six Q) zi => zi * sum6 (zip6 (fun (e : Q) zj => e * zj) row z)) shape z) <= 1
   | Weight lower upper gravity point tolerance =>
       exists (mass : R) (center : vec R), lower <= mass <= upper /\ norm (minus center (real_vec point)) <= tolerance /\
-        w = force_at m P center (times mass (real_vec gravity))
-  | Force set a point => exists v, in_vectors set v /\ w = force_at m P (real_vec point) (in_axes a P v)
+        w = force_at b P center (times mass (real_vec gravity))
+  | Force set a point => exists v, in_vectors set v /\ w = force_at b P (real_vec point) (in_axes a P v)
   | Moment set a => exists v, in_vectors set v /\ w = pure_moment (in_axes a P v)
   | LoadCases cases a point => exists v, in_hull cases v /\
-      w = wrench_plus (force_at m P (real_vec point) (in_axes a P (force v))) (pure_moment (in_axes a P (moment v)))
+      w = wrench_plus (force_at b P (real_vec point) (in_axes a P (force v))) (pure_moment (in_axes a P (moment v)))
   end.
 
 (** One wrench of each item; the load may depend on the pose. *)
-Fixpoint in_items (m : machine) (P : pose) (l : list item) (w : wrench) : Prop :=
+Fixpoint in_items (b : built) (P : pose) (l : list item) (w : wrench) : Prop :=
   match l with
   | nil => w = pure_moment (Vec 0 0 0)
-  | i :: l => exists v u, w = wrench_plus v u /\ in_item m P i v /\ in_items m P l u
+  | i :: l => exists v u, w = wrench_plus v u /\ in_item b P i v /\ in_items b P l u
   end.
-Definition in_load (m : machine) (P : pose) : wrench -> Prop := in_items m P (load m).
+Definition in_load (m : machine) (b : built) (P : pose) : wrench -> Prop := in_items b P (load m).
 
 Definition inside (limits : Q * Q) (margin : Q) (t : R) : Prop := fst limits + margin < t < snd limits - margin.
 
 (** All cables have lengths inside their limits; and for every wrench of the load there is exactly one list of tensions
     that balances it, and these are inside their limits. Both by more than a margin, which may be zero. *)
-Definition feasible_at (m : machine) (tension_margin length_margin : Q) (P : pose) : Prop :=
-  all6 (map6 (fun c => inside (length c) length_margin (cable_length P c)) (cables m)) /\
-  forall w, in_load m P w ->
-    exists f, balanced m P f = w /\ (forall g, balanced m P g = w -> g = f) /\
+Definition feasible_at (m : machine) (b : built) (tension_margin length_margin : Q) (P : pose) : Prop :=
+  all6 (zip6 (fun c a => inside (length c) length_margin (cable_length P a)) (cables m) (anchors b)) /\
+  forall w, in_load m b P w ->
+    exists f, balanced b P f = w /\ (forall g, balanced b P g = w -> g = f) /\
               all6 (zip6 (fun c t => inside (tension c) tension_margin t) (cables m) f).
 
 (** ** Paths *)
@@ -219,8 +245,9 @@ Fixpoint segments (l : law) (path : list waypoint) : list (R -> nat -> R) :=
       end
   end.
 
-(** There is a segment, and all poses of all segments are feasible. *)
+(** There is a segment, and all poses of all segments are feasible, of every machine within its tolerances. *)
 Definition wrench_feasible (m : machine) (l : law) (path : list waypoint) (tension_margin length_margin : Q) : Prop :=
   segments l path <> nil /\
   Forall (fun motion : R -> nat -> R => forall s, 0 <= s <= 1 ->
-    feasible_at m tension_margin length_margin (pose_at m (motion s))) (segments l path).
+    forall b P, is_built m b -> is_tracked m (pose_at m (motion s)) P ->
+    feasible_at m b tension_margin length_margin P) (segments l path).

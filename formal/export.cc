@@ -94,9 +94,8 @@ std::string step_text(const ExpressionTape& tape, const Instruction& step, const
   }
 }
 
-/// The pose's six expressions. @throws InputError for a function that Statement.v does not have.
-std::array<std::string, 6> pose_text(const SpaceText& space) {
-  const ExpressionTape tape = pose_tape(space);
+/// A tape's expressions. @throws InputError for a function that Statement.v does not have.
+std::vector<std::string> expression_texts(const ExpressionTape& tape) {
   std::vector<std::string> slots;
   for (const Instruction& step : tape.instructions()) {
     if (step.op == Op::kCos) continue;  // written with the kSin before it
@@ -105,9 +104,14 @@ std::array<std::string, 6> pose_text(const SpaceText& space) {
     if (slots.back().size() > kMostCharacters) refuse("an expression of so many parts");
     if (step.op == Op::kSin) slots.push_back(fmt::format("(Cos {})", slots.at(static_cast<std::size_t>(step.a))));
   }
-  std::array<std::string, 6> text;
-  for (std::size_t i = 0; i < 6; ++i) text[i] = slots.at(static_cast<std::size_t>(tape.outputs()[i]));
-  return text;
+  std::vector<std::string> texts;
+  for (const int output : tape.outputs()) texts.push_back(slots.at(static_cast<std::size_t>(output)));
+  return texts;
+}
+
+/// The angle of a platform that may be turned.
+std::string orientation_text(const TolerancesText& tolerances, const SpaceText& space) {
+  return expression_texts(ExpressionTape({tolerances.orientation_rad}, {}, space.constants)).front();
 }
 
 void require_load_in_scope(const LoadText& load) {
@@ -141,6 +145,15 @@ Problem stated_part(const Problem& problem) {
   stated.space.angles.kind = problem.space.angles.kind;
   stated.space.flip = problem.space.flip;
   stated.space.pose = problem.space.pose;
+  if (problem.tolerances) {
+    TolerancesText& tolerances = stated.tolerances.emplace();
+    tolerances.base_anchor_m = problem.tolerances->base_anchor_m;
+    tolerances.platform_anchor_m = problem.tolerances->platform_anchor_m;
+    tolerances.load_point_m = problem.tolerances->load_point_m;
+    tolerances.wrench = problem.tolerances->wrench;
+    tolerances.position_m = problem.tolerances->position_m;
+    tolerances.orientation_rad = problem.tolerances->orientation_rad;
+  }
   stated.name = problem.name;
   stated.query = problem.query;
   return stated;
@@ -182,10 +195,10 @@ std::string item_text(const LoadItem& item, const RationalVector& gravity) {
   return fmt::format("LoadCases [{}] {} {}", fmt::join(wrenches, "; "), axes(cases.axes), vec(cases.at));
 }
 
-std::string load_text(const LoadText& load) {
+std::string load_text(const LoadText& load, const TolerancesText& tolerances) {
   std::vector<std::string> items;
   if (load.ellipsoid) {
-    std::string text = fmt::format("Ellipsoid {}\n    (Six", six(load.wrench));
+    std::string text = fmt::format("Ellipsoid {} {}\n    (Six", six(load.wrench), six(tolerances.wrench));
     for (const auto& row : *load.ellipsoid) text += "\n      " + six(row);
     items.push_back(text + ")");
   }
@@ -200,15 +213,22 @@ std::string machine_text(const Problem& stated) {
     text += fmt::format("\n    (Cable {} {} {} {})", vec(robot.base_anchors_m[i]), vec(robot.platform_anchors_m[i]),
                         pair(robot.tension_N[i]), pair(robot.length_m[i]));
   }
-  text += fmt::format(";\n  load_point := {};\n  load := {}", vec(stated.load.point_m), load_text(stated.load));
-  const std::array<std::string, 6> pose = pose_text(stated.space);
+  const TolerancesText tolerances = stated.tolerances.value_or(TolerancesText{});
+  text +=
+      fmt::format(";\n  load_point := {};\n  load := {}", vec(stated.load.point_m), load_text(stated.load, tolerances));
+  const std::vector<std::string> pose = expression_texts(pose_tape(stated.space));
   const AngleKind kind = stated.space.angles.kind;
-  text += fmt::format(";\n  pose_position := Vec {} {} {};\n  pose_angles := {} {} {} {}\n|}}.\n", pose[0], pose[1],
-                      pose[2],
+  text += fmt::format(";\n  pose_position := Vec {} {} {};\n  pose_angles := {} {} {} {}", pose[0], pose[1], pose[2],
                       kind == AngleKind::kTiltAndTorsion ? "TiltTorsion"
                       : kind == AngleKind::kRollPitchYaw ? "RollPitchYaw"
                                                          : "Zyz",
                       pose[3], pose[4], pose[5]);
+  text += ";\n  tolerance := Tolerances (Six";
+  for (std::size_t i = 0; i < 6; ++i) {
+    text += fmt::format(" ({}, {})", number(tolerances.base_anchor_m[i]), number(tolerances.platform_anchor_m[i]));
+  }
+  text += fmt::format(") {} {} {}\n|}}.\n", number(tolerances.load_point_m), number(tolerances.position_m),
+                      orientation_text(tolerances, stated.space));
   return text;
 }
 
@@ -246,7 +266,7 @@ void require_in_scope(const Certificate& certificate) {
     refuse(fmt::format("a path that is {}", interpolation_name(law)));
   }
   if (certificate.path.segments() == 0) refuse("a path of a single waypoint");
-  if (problem.tolerances) refuse("tolerances");
+  if (problem.tolerances && problem.tolerances->cable_length_m) refuse("a machine controlled by its cables' lengths");
   if (problem.bodies) refuse("bodies");
   if (!problem.space.constraints.empty()) refuse("constraints");
   if (problem.space.angles.kind == AngleKind::kAxis) refuse("a platform that turns about an axis");
@@ -254,7 +274,8 @@ void require_in_scope(const Certificate& certificate) {
   require_all_is_stated(problem);
   const std::string items = problem.load.items.empty() ? "" : checker::kItemsClause;
   if (certificate.claim != checker::kProvedClaim + items) refuse("a claim of more than tensions and lengths");
-  (void)pose_text(problem.space);
+  (void)expression_texts(pose_tape(problem.space));
+  if (problem.tolerances) (void)orientation_text(*problem.tolerances, problem.space);
 }
 
 std::string coq_file(const Certificate& certificate, const std::string& sha256,

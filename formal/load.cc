@@ -17,9 +17,11 @@ Load::Set Load::set(const VectorSet& stated) {
   return along(segment.direction, segment.lower, segment.upper);
 }
 
-Load::Item Load::item(const LoadItem& stated, const LoadText& load) {
+Load::Item Load::item(const LoadItem& stated, const LoadText& load, Interval load_point_tolerance) {
   const Vector load_point = exact(load.point_m);
-  const auto from_load_point = [&](const RationalVector& at) { return exact(at) - load_point; };
+  const auto from_load_point = [&](const RationalVector& at) {
+    return exact(at) - within(kLoadPoint, load_point_tolerance, load_point);
+  };
   if (const auto* weight = std::get_if<Weight>(&stated.what)) {
     return Mass{along(load.gravity_m_s2, weight->mass_lower, weight->mass_upper), from_load_point(weight->at),
                 exact(weight->at_tolerance)};
@@ -42,35 +44,37 @@ Load::Item Load::item(const LoadItem& stated, const LoadText& load) {
   return result;
 }
 
-Load::Load(const LoadText& load) {
+Load::Load(const LoadText& load, const TolerancesText& tolerances) {
   if (load.ellipsoid) {
     Ellipsoid ellipsoid;
     for (std::size_t i = 0; i < 6; ++i) {
       ellipsoid.center[i] = exact(load.wrench[i]);
+      ellipsoid.shift[i] = exact(tolerances.wrench[i]);
       ellipsoid.diagonal[i] = exact((*load.ellipsoid)[i][i]);
     }
     items_.emplace_back(ellipsoid);
   }
-  for (const LoadItem& stated : load.items) items_.push_back(item(stated, load));
+  for (const LoadItem& stated : load.items) items_.push_back(item(stated, load, exact(tolerances.load_point_m)));
 }
 
 /// What is computed of one row in one box.
 class Load::Row {
  public:
-  Row(const std::array<Interval, 6>& y, const std::array<Vector, 3>& turn, Interval t)
+  Row(const std::array<Interval, 6>& y, const std::array<Vector, 3>& turn, const Reach& reach)
       : y_(y),
         turn_(turn),
-        t_(t),
+        reach_(reach),
         forces_{Slope(y[0]), Slope(y[1]), Slope(y[2])},
         moments_{Slope(y[3]), Slope(y[4]), Slope(y[5])} {}
 
   Part operator()(const Ellipsoid& ellipsoid) const {
-    Interval center(0.0), square(0.0);
+    Interval center(0.0), shift(0.0), square(0.0);
     for (std::size_t k = 0; k < 6; ++k) {
       center += y_[k] * ellipsoid.center[k];
+      shift += y_[k] * ellipsoid.shift[k];
       square += y_[k] * y_[k] / ellipsoid.diagonal[k];
     }
-    return {Slope(center), symmetric(sqrt(square))};
+    return {Slope(center), symmetric(Interval(magnitude(shift)) + sqrt(square))};
   }
   Part operator()(const Mass& mass) const {
     const Part exactly = multiples(mass.range, dot(covector(mass.point), mass.range.direction));
@@ -99,17 +103,13 @@ class Load::Row {
   }
 
  private:
-  [[nodiscard]] static Interval symmetric(Interval size) { return {-size.upper(), size.upper()}; }
-  [[nodiscard]] Interval range(const Slope& f) const { return tight(f, t_).over; }
-  [[nodiscard]] Interval size(const Vector& v) const {
-    const Interval x = range(v[0]), y = range(v[1]), z = range(v[2]);
-    return sqrt(sqr(x) + sqr(y) + sqr(z));
-  }
+  [[nodiscard]] Interval range(const Slope& f) const { return tight(f, reach_).over; }
+  [[nodiscard]] Interval size(const Vector& v) const { return norm({range(v[0]), range(v[1]), range(v[2])}); }
   [[nodiscard]] Part multiples(const Along& range_of, const Slope& f) const {
     return {Slope(range_of.middle) * f, range_of.half * Interval(0.0, magnitude(range(f)))};
   }
   [[nodiscard]] Vector covector(const Vector& point) const {
-    return forces_ + cross(moments_, tight(image(turn_, point), t_));
+    return forces_ + cross(moments_, tight(image(turn_, point), reach_));
   }
   [[nodiscard]] Vector seen(Axes axes, const Vector& h) const {
     return axes == Axes::kWorld ? h : Vector{dot(turn_[0], h), dot(turn_[1], h), dot(turn_[2], h)};
@@ -117,12 +117,12 @@ class Load::Row {
 
   const std::array<Interval, 6>& y_;
   const std::array<Vector, 3>& turn_;
-  Interval t_;
+  const Reach& reach_;
   Vector forces_, moments_;
 };
 
-Part Load::part(const std::array<Interval, 6>& y, const std::array<Vector, 3>& turn, Interval t) const {
-  const Row row(y, turn, t);
+Part Load::part(const std::array<Interval, 6>& y, const std::array<Vector, 3>& turn, const Reach& reach) const {
+  const Row row(y, turn, reach);
   Part sum;
   for (const Item& item : items_) {
     const Part part = std::visit(row, item);

@@ -22,10 +22,11 @@ class Load {
  public:
   Load() = default;
   /// Under run_upward(). @pre an ellipsoid's matrix is diagonal
-  explicit Load(const LoadText& load);
+  Load(const LoadText& load, const TolerancesText& tolerances);
 
-  /// @param turn  images of the platform's axes  @param t  s - m over the box
-  [[nodiscard]] Part part(const std::array<Interval, 6>& y, const std::array<Vector, 3>& turn, Interval t) const;
+  /// @param turn  images of the platform's axes
+  [[nodiscard]] Part part(const std::array<Interval, 6>& y, const std::array<Vector, 3>& turn,
+                          const Reach& reach) const;
 
  private:
   struct Ball {
@@ -43,7 +44,7 @@ class Load {
   using Set = std::variant<Ball, Disc, Along>;
 
   struct Ellipsoid {
-    std::array<Interval, 6> center, diagonal;
+    std::array<Interval, 6> center, shift, diagonal;
   };
   /// Points are given from the load point.
   struct Mass {
@@ -67,7 +68,7 @@ class Load {
 
   static Along along(const RationalVector& direction, const RationalText& lower, const RationalText& upper);
   static Set set(const VectorSet& stated);
-  static Item item(const LoadItem& stated, const LoadText& load);
+  static Item item(const LoadItem& stated, const LoadText& load, Interval load_point_tolerance);
 
   std::vector<Item> items_;
 };

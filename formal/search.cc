@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "base/input_error.h"
@@ -27,26 +29,13 @@ using Matrix = std::array<std::array<double, 6>, 6>;
 /// What is the same for all boxes; made under run_upward().
 struct Machine {
   std::array<Vector, 6> base, platform, lever;
+  std::array<Interval, kBalls> radii;
   Load load;
   std::array<std::array<Interval, 2>, 6> tension, length;
 };
 
-Machine machine(const Problem& problem) {
-  Machine m;
-  const Vector load_point = exact(problem.load.point_m);
-  for (std::size_t i = 0; i < 6; ++i) {
-    m.base[i] = exact(problem.robot.base_anchors_m[i]);
-    m.platform[i] = exact(problem.robot.platform_anchors_m[i]);
-    m.lever[i] = m.platform[i] - load_point;
-    m.tension[i] = {exact(problem.robot.tension_N[i].lower), exact(problem.robot.tension_N[i].upper)};
-    m.length[i] = {exact(problem.robot.length_m[i].lower), exact(problem.robot.length_m[i].upper)};
-  }
-  m.load = Load(problem.load);
-  return m;
-}
-
 /// The expressions of in_scope() on slopes.
-std::array<Slope, 6> evaluate(const ExpressionTape& tape, const std::vector<Slope>& parameters) {
+std::vector<Slope> evaluate(const ExpressionTape& tape, const std::vector<Slope>& parameters) {
   std::vector<Slope> slots;
   for (const Instruction& step : tape.instructions()) {
     const auto a = [&]() -> const Slope& { return slots.at(static_cast<std::size_t>(step.a)); };
@@ -81,13 +70,37 @@ std::array<Slope, 6> evaluate(const ExpressionTape& tape, const std::vector<Slop
       default: throw std::logic_error("an expression outside of the scope");
     }
   }
-  std::array<Slope, 6> values;
-  for (std::size_t i = 0; i < 6; ++i) values[i] = slots.at(static_cast<std::size_t>(tape.outputs()[i]));
+  std::vector<Slope> values;
+  for (const int output : tape.outputs()) values.push_back(slots.at(static_cast<std::size_t>(output)));
   return values;
 }
 
+Interval constant(const ExpressionText& text, const std::map<std::string, DecimalText>& constants) {
+  return evaluate(ExpressionTape({text}, {}, constants), {}).front().mid;
+}
+
+Machine machine(const Problem& problem) {
+  Machine m;
+  const TolerancesText tolerances = problem.tolerances.value_or(TolerancesText{});
+  m.radii[kPosition] = exact(tolerances.position_m);
+  m.radii[kTurn] = constant(tolerances.orientation_rad, problem.space.constants);
+  m.radii[kLoadPoint] = exact(tolerances.load_point_m);
+  const Vector load_point = within(kLoadPoint, m.radii[kLoadPoint], exact(problem.load.point_m));
+  for (std::size_t i = 0; i < 6; ++i) {
+    Interval& at_base = m.radii[base_ball(i)] = exact(tolerances.base_anchor_m[i]);
+    Interval& at_platform = m.radii[platform_ball(i)] = exact(tolerances.platform_anchor_m[i]);
+    m.base[i] = within(base_ball(i), at_base, exact(problem.robot.base_anchors_m[i]));
+    m.platform[i] = within(platform_ball(i), at_platform, exact(problem.robot.platform_anchors_m[i]));
+    m.lever[i] = m.platform[i] - load_point;
+    m.tension[i] = {exact(problem.robot.tension_N[i].lower), exact(problem.robot.tension_N[i].upper)};
+    m.length[i] = {exact(problem.robot.length_m[i].lower), exact(problem.robot.length_m[i].upper)};
+  }
+  m.load = Load(problem.load, tolerances);
+  return m;
+}
+
 /// v turned about the axis `axis` of the world.
-Vector turned(const SinCos<Slope>& angle, std::size_t axis, const Vector& v) {
+Vector turned_about(const SinCos<Slope>& angle, std::size_t axis, const Vector& v) {
   const std::size_t y = (axis + 1) % 3;
   const std::size_t z = (axis + 2) % 3;
   Vector result = v;
@@ -97,7 +110,7 @@ Vector turned(const SinCos<Slope>& angle, std::size_t axis, const Vector& v) {
 }
 
 /// The images of the unit vectors.
-std::array<Vector, 3> rotation(AngleKind kind, const std::array<Slope, 6>& pose) {
+std::array<Vector, 3> rotation(AngleKind kind, const std::vector<Slope>& pose) {
   std::array<Slope, 3> angles{pose[3], pose[4], pose[5]};
   std::array<std::size_t, 3> axes{2, 1, 2};
   if (kind == AngleKind::kTiltAndTorsion) angles[2] = pose[5] - pose[3];
@@ -108,7 +121,7 @@ std::array<Vector, 3> rotation(AngleKind kind, const std::array<Slope, 6>& pose)
   std::array<Vector, 3> columns;
   for (std::size_t i = 0; i < 3; ++i) {
     columns[i][i] = Slope(Interval(1.0));
-    for (std::size_t k = 3; k-- > 0;) columns[i] = turned(sincos(angles[k]), axes[k], columns[i]);
+    for (std::size_t k = 3; k-- > 0;) columns[i] = turned_about(sincos(angles[k]), axes[k], columns[i]);
   }
   return columns;
 }
@@ -149,7 +162,7 @@ class Judge {
   bool judge(Box& box) {
     const double width = std::ldexp(1.0, -box.depth);
     const double begin = static_cast<double>(box.index) * width;
-    t_ = Interval(-width / 2, width / 2);
+    reach_ = {Interval(-width / 2, width / 2), machine_.radii};
     place(Interval(begin, begin + width), Interval(begin + width / 2));
     return choose(box) && contracts(box) && is_inside(box);
   }
@@ -164,12 +177,13 @@ class Judge {
       if (x.cubic) value = Slope(x.c[0]) + at * (Slope(x.c[1]) + at * (Slope(x.c[2]) + at * Slope(x.c[3])));
       parameters.push_back(value);
     }
-    const std::array<Slope, 6> pose = evaluate(tape_, parameters);
+    const std::vector<Slope> pose = evaluate(tape_, parameters);
     columns_ = rotation(problem_.space.angles.kind, pose);
-    const Vector position{pose[0], pose[1], pose[2]};
+    for (Vector& column : columns_) column = turned(machine_.radii[kTurn], column);
+    const Vector position = within(kPosition, machine_.radii[kPosition], {pose[0], pose[1], pose[2]});
     for (std::size_t i = 0; i < 6; ++i) {
-      const Vector d = tight(position + image(columns_, machine_.platform[i]) - machine_.base[i], t_);
-      const Vector moment = cross(tight(image(columns_, machine_.lever[i]), t_), d);
+      const Vector d = tight(position + image(columns_, machine_.platform[i]) - machine_.base[i], reach_);
+      const Vector moment = cross(tight(image(columns_, machine_.lever[i]), reach_), d);
       length_[i] = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
       for (std::size_t k = 0; k < 3; ++k) {
         d_[k][i] = d[k];
@@ -203,7 +217,7 @@ class Judge {
     }
     unit_ = std::ldexp(1.0, -box.scale);
     for (std::size_t i = 0; i < 6; ++i) {
-      parts_[i] = machine_.load.part(row(box, i), columns_, t_);
+      parts_[i] = machine_.load.part(row(box, i), columns_, reach_);
       const double density = midpoint_approx(parts_[i].form.mid);
       if (!(std::abs(density) * unit < 1e18)) return false;
       box.densities[i] = std::lrint(density * unit);
@@ -226,7 +240,7 @@ class Judge {
       for (std::size_t j = 0; j < 6; ++j) {
         Slope product;
         for (std::size_t k = 0; k < 6; ++k) product = product + Slope(scaled(box.inverse[i][k])) * d_[k][j];
-        e_[i][j] = tight(Slope(Interval(i == j ? 1.0 : 0.0)) - product, t_).over;
+        e_[i][j] = tight(Slope(Interval(i == j ? 1.0 : 0.0)) - product, reach_).over;
         sum += magnitude(e_[i][j]);
       }
       norm_ = std::max(norm_, sum);
@@ -242,7 +256,7 @@ class Judge {
       for (std::size_t j = 0; j < 6; ++j) row = row + d_[k][j] * Slope(scaled(box.densities[j]));
       balanced = balanced + Slope(scaled(box.inverse[i][k])) * row;
     }
-    return tight(parts_[i].form - balanced, t_).over + parts_[i].others;
+    return tight(parts_[i].form - balanced, reach_).over + parts_[i].others;
   }
 
   [[nodiscard]] bool is_inside(const Box& box) const {
@@ -263,7 +277,7 @@ class Judge {
       }
     }
     for (std::size_t i = 0; i < 6; ++i) {
-      const Interval length = tight(length_[i], t_).over;
+      const Interval length = tight(length_[i], reach_).over;
       if (!keeps(machine_.length[i], length)) return false;
       if (!keeps(machine_.tension[i], length * (scaled(box.densities[i]) + y[i]))) return false;
     }
@@ -279,7 +293,7 @@ class Judge {
   const ExpressionTape& tape_;
   const Segment& segment_;
   Machine machine_;
-  Interval t_{0.0};
+  Reach reach_;
   std::array<Vector, 3> columns_;  ///< of the rotation
   std::array<Part, 6> parts_;      ///< what the load makes of each row of C
   std::array<std::array<Slope, 6>, 6> d_;
@@ -321,10 +335,11 @@ std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certi
         continue;
       }
       if (box.depth == kMostDepth) {
-        throw InputError(
-            fmt::format("segment {}: got a place near s = {:.6f} where even a box of 2^-{} is too large "
-                        "for Coq's arithmetic, expected more room",
-                        k + 1, std::ldexp(static_cast<double>(box.index), -box.depth), kMostDepth));
+        throw InputError(fmt::format(
+            "segment {}: got a place near s = {:.6f} where even a box of 2^-{} is too large "
+            "for Coq's arithmetic, expected more room{}",
+            k + 1, std::ldexp(static_cast<double>(box.index), -box.depth), kMostDepth,
+            problem.tolerances ? " (within tolerances Coq needs more of it than taut: docs/formal.md)" : ""));
       }
       open.push_back(Box{box.depth + 1, 2 * box.index + 1});
       open.push_back(Box{box.depth + 1, 2 * box.index});

@@ -36,6 +36,7 @@ let fields ?(optional = []) place keys json =
 
 let get key l : json = List.assoc key l
 let find key l : json option = List.assoc_opt key l
+let is_empty : json -> bool = function `Null | `List [] -> true | _ -> false
 
 let elements place ?count : json -> json list = function
   | `List l ->
@@ -279,11 +280,32 @@ let item gravity json =
       LoadCases (List.map wrench (elements place (get "wrenches" f)), axes_of place f, vec place (get "at_m" f))
   | _ -> refuse place "expected an item of one kind"
 
-let load json =
+(* Tolerances but that of the ellipsoid's wrench, and that. *)
+let tolerances constants json =
+  let place = "problem.tolerances" in
+  let zero = fraction Int.zero Int.one in
+  let all x = { at1 = x; at2 = x; at3 = x; at4 = x; at5 = x; at6 = x } in
+  if is_empty json then
+    ({ of_anchors = all (zero, zero); of_load_point = zero; of_position = zero; of_orientation = Number zero }, all zero)
+  else begin
+    let f = fields place [ "base_anchor_m"; "platform_anchor_m"; "load_point_m"; "wrench"; "position_m";
+                           "orientation_rad"; "cable_length_m" ] json in
+    if not (is_empty (get "cable_length_m" f)) then refuse place "cables' lengths, which Coq is not told";
+    let sizes key = six place (size place) (get key f) in
+    let b = sizes "base_anchor_m" and p = sizes "platform_anchor_m" in
+    ({ of_anchors = { at1 = (b.at1, p.at1); at2 = (b.at2, p.at2); at3 = (b.at3, p.at3); at4 = (b.at4, p.at4);
+                      at5 = (b.at5, p.at5); at6 = (b.at6, p.at6) };
+       of_load_point = size place (get "load_point_m" f);
+       of_position = size place (get "position_m" f);
+       of_orientation = expression { parameters = []; constants } place (text place (get "orientation_rad" f)) },
+     six place (number place) (get "wrench" f))
+  end
+
+let load shift json =
   let place = "problem.load" in
   let f = fields place [ "point_m" ] ~optional:[ "wrench"; "ellipsoid"; "ellipsoid_name"; "gravity_m_s2"; "items" ] json in
   let ellipsoid = match (find "wrench" f, find "ellipsoid" f) with
-    | Some w, Some e -> [ Ellipsoid (six place (number place) w, six place (six place (number place)) e) ]
+    | Some w, Some e -> [ Ellipsoid (six place (number place) w, shift, six place (six place (number place)) e) ]
     | None, None -> []
     | _ -> refuse place "a wrench without an ellipsoid, or the other way round" in
   let items = match (find "items" f, find "gravity_m_s2" f) with
@@ -304,7 +326,7 @@ let cables json =
   | [ a; b; c; d; e; f ] -> { at1 = a; at2 = b; at3 = c; at4 = d; at5 = e; at6 = f }
   | _ -> refuse place "expected six cables"
 
-(* The parameters' names, and the pose. What says which values are one pose, and in what range they stay, says nothing
+(* The parameters' names, the constants, and the pose. What says which values are one pose, and in what range they stay, says nothing
    of which motions are feasible. *)
 let space json =
   let place = "problem.space" in
@@ -324,7 +346,7 @@ let space json =
   let pose = fields place ([ "px"; "py"; "pz" ] @ keys) (get "pose" f) in
   let value key = expression { parameters; constants } (place ^ ".pose." ^ key) (text place (get key pose)) in
   let angles = match keys with [ a; b; c ] -> kind (value a) (value b) (value c) | _ -> assert false in
-  (parameters, { vx = value "px"; vy = value "py"; vz = value "pz" }, angles)
+  (parameters, constants, { vx = value "px"; vy = value "py"; vz = value "pz" }, angles)
 
 (* ---- The path and the boxes ---- *)
 
@@ -333,8 +355,6 @@ let waypoint count json =
   let f = fields place [ "x"; "half_turns" ] json in
   List.map2 (fun x h -> (binary64 place (text place x), whole place h))
     (elements place ~count (get "x" f)) (elements place ~count (get "half_turns" f))
-
-let is_empty = function `Null | `List [] -> true | _ -> false
 
 let path count json =
   let place = "path" in
@@ -360,12 +380,12 @@ let certificate json boxes =
   if find "version" all <> Some (`Int 4) then refuse "certificate" "a version that Coq is not told: expected 4";
   if find "verdict" all <> Some (`String "proved") then refuse "certificate" "expected the verdict 'proved'";
   let f = fields "problem" [ "robot"; "load"; "space"; "query"; "name"; "tolerances" ] (get "problem" all) in
-  if not (is_empty (get "tolerances" f)) then refuse "problem" "tolerances, which Coq is not told";
-  let parameters, pose_position, pose_angles = space (get "space" f) in
-  let load_point, load = load (get "load" f) in
+  let parameters, constants, pose_position, pose_angles = space (get "space" f) in
+  let tolerance, shift = tolerances constants (get "tolerances" f) in
+  let load_point, load = load shift (get "load" f) in
   let motion, path = path (List.length parameters) (get "path" all) in
   let zero = fraction Int.zero Int.one in
-  { subject = { cables = cables (get "robot" f); load_point; load; pose_position; pose_angles };
+  { subject = { cables = cables (get "robot" f); load_point; load; pose_position; pose_angles; tolerance };
     motion; path; tension_margin = zero; length_margin = zero; bits = Int.of_int 30;
     boxes = List.map (fun l -> List.map box (elements "boxes" l)) (elements "boxes" (get "boxes" (fields "boxes" [ "boxes" ] boxes))) }
 
@@ -379,8 +399,8 @@ let () =
         let c = certificate (read file) (read boxes) in
         if Exact.N.C.check c then
           Printf.printf
-            "verified: everywhere along the path (%d segment%s), for every wrench of the load, exactly one list of \
-             tensions balances it, and all tensions and all lengths are strictly within their limits.\n\
+            "verified: everywhere along the path (%d segment%s), for every machine and pose within the tolerances and every \
+             wrench of the load, exactly one list of tensions balances it, and all tensions and all lengths are strictly within their limits.\n\
              Not verified: how large margins are, that parameters stay in their ranges, that the path leads where the \
              query asked, and who signed.\n"
             (List.length c.boxes) (if List.length c.boxes = 1 then "" else "s")

@@ -11,6 +11,7 @@ import math
 import os
 import re
 from fractions import Fraction
+from random import Random
 
 from command_line import CASES, ROBOT1, SOURCE, TAUT, InFolder, main, run, text_of
 from coq_data import read
@@ -20,6 +21,8 @@ SPHERE = os.path.join(CASES, "robot2-sphere-q1-q2.yaml")
 ROLL_PITCH_YAW = os.path.join(CASES, "robot1-roll-pitch-yaw.yaml")
 SPLINE = os.path.join(CASES, "tutorial", "03-a-smooth-move.yaml")
 ITEMS = os.path.join(SOURCE, "tests", "cli", "formal_items.yaml")
+TOLERANCES = os.path.join(SOURCE, "tests", "cli", "formal_tolerances.yaml")
+EXACT = "tolerance := Tolerances (Six (0, 0) (0, 0) (0, 0) (0, 0) (0, 0) (0, 0)) 0 0 (Number 0)"
 AXIOMS = {"sig_not_dec", "sig_forall_dec", "functional_extensionality_dep", "epsilon_statement", "classic"}
 POSES = 12          # of each robot
 SCALE = 44
@@ -46,7 +49,7 @@ class Proofs(InFolder):
 class WhatIsTrue(Proofs):
     def test_the_kernel_proves_what_is_written(self):
         for case, options in ((ROBOT1, []), (SPHERE, ["--fast"]), (ROLL_PITCH_YAW, ["--fast"]),
-                              (ITEMS, ["--fast"]), (ITEMS, []), (SPLINE, ["--fast"])):
+                              (ITEMS, ["--fast"]), (ITEMS, []), (SPLINE, ["--fast"]), (TOLERANCES, ["--fast"]), (TOLERANCES, [])):
             with self.subTest(case):
                 said = run(TAUT, "formal", self.plan(case), *options)
                 self.assertEqual(said.returncode, 0, said.stderr)
@@ -86,6 +89,16 @@ class WhatIsNotTrue(Proofs):
         self.refused(SPLINE, [
                 ("straight from control point to control point", "motion := Spline", "motion := Straight"),
                 ("a control point elsewhere", r"(path := \[(?:\[[^]]*\];\s*){4}\[)\([^,]*,", r"\g<1>(9,")])
+
+    def test_it_refuses_larger_tolerances(self):
+        self.refused(TOLERANCES, [
+                ("of a base anchor", r"\(0\.0001, 0\.00015\)", "(0.1, 0.00015)"),
+                ("of a platform anchor", r"\(0\.0003, 0\.00035\)", "(0.0003, 0.1)"),
+                ("of the load point", r"\) 0\.0007 0\.001", ") 0.1 0.001"),
+                ("of the position", r"\) 0\.0007 0\.001", ") 0.0007 0.1"),
+                ("of the orientation", r"\(Over \(Times \(Number 0\.1\) Pi\) \(Number 180\)\)\s*\|", "(Number 0.5) |"),
+                ("of any orientation", r"\(Over \(Times \(Number 0\.1\) Pi\) \(Number 180\)\)\s*\|", "(Number 7) |"),
+                ("of the wrench", r"\(Six 0\.01 \(-0\.02\)", "(Six 0.01 (-9)")])
 
     def test_it_refuses_more_of_each_item(self):
         self.refused(ITEMS, [
@@ -169,7 +182,8 @@ class TheStatement(Proofs):
         text = re.sub(r"\(([^()]+), ([^()]+)\) \(([^()]+), ([^()]+)\)\)", lambda _: " ".join(
             f"({exact(low)}, {exact(high)})" for low, high in next(cables)) + ")", text)
         point = f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in line['pose'])}]"
-        return (f"Goal Fast.N.C.check {{| subject := {text}; motion := Straight; path := [{point}; {point}];\n"
+        return (f"Goal Fast.N.C.check {{| subject := {text}; {EXACT} |}};\n"
+                f"  motion := Straight; path := [{point}; {point}];\n"
                 "  tension_margin := 0; length_margin := 0; bits := 60;\n"
                 f"  boxes := {self.box(problem, line['pose'])} |}} = {answer}.\n"
                 "Proof. vm_compute. reflexivity. Qed.\n")
@@ -181,7 +195,7 @@ class TheStatement(Proofs):
             problem = self.certificate()["problem"]
             head, machine = re.match(r"(.*?)Definition robot : machine := (.*?)\.\n\n", text, re.S).groups()
             machine = re.sub(r"pose_position.*", "pose_position := Vec (Param 0) (Param 1) (Param 2);\n"
-                             "  pose_angles := TiltTorsion (Param 3) (Param 4) (Param 5) |}", machine, flags=re.S)
+                             "  pose_angles := TiltTorsion (Param 3) (Param 4) (Param 5)", machine, flags=re.S)
             chosen = [line for line in lines if line["robot"] == robot and abs(float(line["det_J"])) > 1e-3][:POSES]
             self.assertEqual(len(chosen), POSES)
             places = [(kind, i, side) for kind in ("tension", "length") for i in range(6) for side in (0, 1)]
@@ -190,6 +204,94 @@ class TheStatement(Proofs):
                       for k, line in enumerate(chosen) for place in places[k % 4::4]]
             said = self.coqc(head + "".join(goals))
             self.assertEqual(said.returncode, 0, said.stderr)
+
+
+class WithinTolerances(Proofs):
+    """Machines that deviate, chosen at random and computed otherwise: none may break limits that Coq takes for kept.
+
+    Where one of them is at a limit, Coq has to refuse it; limits that are a little further away than any of many of them
+    get have to be accepted.
+    """
+    MACHINES = 300
+    ROOM = 2.5  # times as far as they get: none of them deviates by all that it may in the worst direction at once
+    SET = {"base": 2e-4, "platform": 3e-4, "point": 5e-4, "position": 4e-4, "angle": 1e-3}
+    SHIFT = (0.01, -0.02, 0.015, 0.0002, 0.0001, -0.0003)
+
+    def direction(self, random, radius):
+        while True:
+            v = [random.uniform(-1, 1) for _ in range(3)]
+            if 0.1 < math.hypot(*v) <= 1:
+                return [radius * x / math.hypot(*v) for x in v]
+
+    def ranges(self, problem, pose, random=None):
+        """[(least, greatest)] of each cable's tension, and its length, of one machine; with none, as stated."""
+        def off(v, key):
+            return [x + y for x, y in zip(v, self.direction(random, self.SET[key]))] if random else v
+        numbers = {key: [[float(Fraction(x)) for x in v] for v in problem["robot"][key]]
+                   for key in ("base_anchors_m", "platform_anchors_m")}
+        point = off([float(Fraction(x)) for x in problem["load"]["point_m"]], "point")
+        position = off(list(pose[:3]), "position")
+        w = self.direction(random, self.SET["angle"]) if random else [0, 0, 0]
+        angle = math.hypot(*w)
+
+        def turn(v):  # a quaternion's turn
+            u, s, c = turned(pose[3:], v), math.sin(angle / 2), math.cos(angle / 2)
+            q = [s * x / angle for x in w] if angle else w
+            t = [2 * x for x in cross(q, u)]
+            return [x + c * y + z for x, y, z in zip(u, t, cross(q, t))]
+        columns, lengths = [], []
+        for base, platform in zip(numbers["base_anchors_m"], numbers["platform_anchors_m"]):
+            a, b = off(base, "base"), off(platform, "platform")
+            d = [p + x - y for p, x, y in zip(position, turn(b), a)]
+            columns.append((*d, *cross(turn([x - y for x, y in zip(b, point)]), d)))
+            lengths.append(math.hypot(*d))
+        share = random.choice((-1, 1)) if random else 0
+        center = [float(Fraction(x)) + share * y for x, y in zip(problem["load"]["wrench"], self.SHIFT)]
+        diagonal = [float(Fraction(row[k])) for k, row in enumerate(problem["load"]["ellipsoid"])]
+        found = []
+        for row, length in zip(inverse(list(zip(*columns))), lengths):
+            middle = length * sum(x * y for x, y in zip(row, center))
+            reach = length * math.sqrt(sum(x * x / e for x, e in zip(row, diagonal)))
+            found.append((middle - reach, middle + reach))
+        return found, lengths
+
+    def test_no_machine_breaks_what_is_proved(self):
+        random = Random(1)
+        text = self.written(SPHERE)
+        problem = self.certificate()["problem"]
+        head, machine = re.match(r"(.*?)Definition robot : machine := (.*?)\.\n\n", text, re.S).groups()
+        machine = re.sub(r"pose_position.*", "pose_position := Vec (Param 0) (Param 1) (Param 2);\n"
+                         "  pose_angles := TiltTorsion (Param 3) (Param 4) (Param 5)", machine, flags=re.S)
+        machine, count = re.subn(r"Ellipsoid (\(Six [^()]*\)) \(Six 0 0 0 0 0 0\)",
+                                 rf"Ellipsoid \1 (Six {' '.join(exact(str(x)) for x in self.SHIFT)})", machine)
+        self.assertEqual(count, 1)
+        each = f"({exact(str(self.SET['base']))}, {exact(str(self.SET['platform']))})"
+        tolerance = (f"tolerance := Tolerances (Six {' '.join([each] * 6)}) {exact(str(self.SET['point']))} "
+                     f"{exact(str(self.SET['position']))} (Number {exact(str(self.SET['angle']))})")
+        goals = []
+        for pose in ((0.01, -0.02, 0.3, 0.4, 0.2, 0.1), (-0.03, 0.02, 0.33, -1.1, 0.3, -0.05)):
+            stated, lengths = self.ranges(problem, pose)
+            machines = [self.ranges(problem, pose, random) for _ in range(self.MACHINES)]
+            reached = {"tension": [[f(m[0][i][side] for m in machines) for side, f in ((0, min), (1, max))]
+                                   for i in range(6)],
+                       "length": [[f(m[1][i] for m in machines) for f in (min, max)] for i in range(6)]}
+            start = {"tension": stated, "length": [(x, x) for x in lengths]}
+            box = TheStatement.box(self, problem, pose)
+            for edit in [None] + [(kind, i, side) for kind in reached for i in range(6) for side in (0, 1)]:
+                def limit(kind, i, side):
+                    far = start[kind][i][side] + self.ROOM * (reached[kind][i][side] - start[kind][i][side])
+                    return exact(reached[kind][i][side] if edit == (kind, i, side) else far)
+                cables = iter(range(6))
+                limited = re.sub(r"\(([^()]+), ([^()]+)\) \(([^()]+), ([^()]+)\)\)", lambda _: " ".join(
+                    f"({limit(kind, i, 0)}, {limit(kind, i, 1)})" for i in [next(cables)]
+                    for kind in ("tension", "length")) + ")", machine)
+                at = f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in pose)}]"
+                goals.append(f"Goal Fast.N.C.check {{| subject := {limited}; {tolerance} |}}; motion := Straight;\n"
+                             f"  path := [{at}; {at}]; tension_margin := 0; length_margin := 0; bits := 60;\n"
+                             f"  boxes := {box} |}} = {'true' if edit is None else 'false'}.\n"
+                             "Proof. vm_compute. reflexivity. Qed.\n")
+        said = self.coqc(head + "".join(goals))
+        self.assertEqual(said.returncode, 0, said.stderr)
 
 
 def dot(u, v):
@@ -277,9 +379,9 @@ class TheLoad(Proofs):
                 limits = iter([(limit(i, 0), limit(i, 1)) for i in range(6)])
                 machine = re.sub(r"\(2000, 160000\)", lambda _: "({}, {})".format(*next(limits)), self.machine)
                 machine = re.sub(r"pose_position.*", "pose_position := Vec (Param 0) (Param 1) (Param 2);\n"
-                                 "  pose_angles := TiltTorsion (Param 3) (Param 4) (Param 5) |}", machine, flags=re.S)
+                                 "  pose_angles := TiltTorsion (Param 3) (Param 4) (Param 5)", machine, flags=re.S)
                 point = f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in pose)}]"
-                goals.append(f"Goal Fast.N.C.check {{| subject := {machine}; motion := Straight;\n"
+                goals.append(f"Goal Fast.N.C.check {{| subject := {machine}; {EXACT} |}}; motion := Straight;\n"
                              f"  path := [{point}; {point}]; tension_margin := 0; length_margin := 0; bits := 60;\n"
                              f"  boxes := {box} |}} = "
                              f"{'true' if edit is None else 'false'}.\nProof. vm_compute. reflexivity. Qed.\n")

@@ -22,6 +22,7 @@ from coq_data import read
 SPHERE = os.path.join(CASES, "robot2-sphere-q1-q2.yaml")
 ROLL_PITCH_YAW = os.path.join(CASES, "robot1-roll-pitch-yaw.yaml")
 ITEMS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "formal_items.yaml")
+TOLERANCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "formal_tolerances.yaml")
 SPLINE = os.path.join(CASES, "tutorial", "03-a-smooth-move.yaml")
 NO_PATH = os.path.join(CASES, "tutorial", "02-a-slack-start.yaml")
 # What says nothing of which motions are feasible: Coq is not told of it.
@@ -85,11 +86,15 @@ def vectors(stated):
     return ("Along", vec(stated["segment"]["direction"]), *texts(stated["segment"]["range"]))
 
 
-def load_of(load):
+EXACT = {"base_anchor_m": ["0"] * 6, "platform_anchor_m": ["0"] * 6, "load_point_m": "0", "wrench": ["0"] * 6,
+         "position_m": "0", "orientation_rad": "0"}
+
+
+def load_of(load, shift):
     """The items as Coq reads them."""
     items = []
     if "ellipsoid" in load:
-        items.append(("Ellipsoid", ("Six", *texts(load["wrench"])),
+        items.append(("Ellipsoid", ("Six", *texts(load["wrench"])), ("Six", *texts(shift)),
                       ("Six", *(("Six", *texts(row)) for row in load["ellipsoid"]))))
     axes = {"W": "OfWorld", "P": "OfPlatform"}
     for item in load.get("items", []):
@@ -136,7 +141,13 @@ class WhatIsWritten(Formal):
                                      ("Vec", *texts(problem["robot"]["platform_anchors_m"][i])),
                                      limits["tension_N"][i], limits["length_m"][i]))
         self.assertEqual(robot["load_point"], ("Vec", *texts(problem["load"]["point_m"])))
-        self.assertEqual(robot["load"], load_of(problem["load"]))
+        tolerances = problem["tolerances"] or EXACT
+        self.assertEqual(robot["load"], load_of(problem["load"], tolerances["wrench"]))
+        name, anchors, load_point, position, orientation = robot["tolerance"]
+        anchors_of = zip(texts(tolerances["base_anchor_m"]), texts(tolerances["platform_anchor_m"]))
+        self.assertEqual((name, anchors), ("Tolerances", ("Six", *anchors_of)))
+        self.assertEqual([load_point, position], list(texts([tolerances["load_point_m"], tolerances["position_m"]])))
+        self.same_expression(orientation, tolerances["orientation_rad"], [], problem["space"]["constants"])
         names = [parameter["name"] for parameter in problem["space"]["parameters"]]
         self.assertEqual(robot["pose_angles"][0], "RollPitchYaw" if "angles" in problem["space"] else "TiltTorsion")
         keys = ["roll", "pitch", "yaw"] if "angles" in problem["space"] else ["phi", "theta", "sigma"]
@@ -174,13 +185,13 @@ class WhatIsWritten(Formal):
                                    delta=1e-12)
 
     def test_it_is_what_the_certificate_states(self):
-        for case in (ROBOT1, SPHERE, ROLL_PITCH_YAW, ITEMS, SPLINE):
+        for case in (ROBOT1, SPHERE, ROLL_PITCH_YAW, ITEMS, TOLERANCES, SPLINE):
             with self.subTest(case):
                 self.compare(case)
 
     def test_whatever_is_altered_is_written_or_refused(self):
         """Nothing of the problem is left out: each alteration of a number shows, or there is no file."""
-        for case in (SPHERE, ROLL_PITCH_YAW, ITEMS):
+        for case in (SPHERE, ROLL_PITCH_YAW, ITEMS, TOLERANCES):
             base = copy.deepcopy(planned(case))
             if case == ITEMS:  # its pose is not that of a machine that flips, once it is altered
                 base["problem"]["space"]["flip"] = None
@@ -212,7 +223,7 @@ class WhatIsWritten(Formal):
             return "P" if text == "W" else "W"
         if path.endswith("/mass_kg/0"):
             return f"{float(Fraction(text) - Fraction(1, 10**7)):.9f}"
-        if path.startswith("/space/pose"):
+        if path.startswith("/space/pose") or path.endswith("/orientation_rad"):
             return f"{text} + 1e-7"
         if path.startswith("/load/ellipsoid") and text == "0":
             return "1"
@@ -228,14 +239,13 @@ class WhatIsRefused(Formal):
         return sealed(certificate)
 
     def test_what_coq_is_not_told_is_named(self):
-        zeros = {"base_anchor_m": ["0"] * 6, "platform_anchor_m": ["0"] * 6, "load_point_m": "0", "wrench": ["0"] * 6,
-                 "position_m": "0", "orientation_rad": "0", "cable_length_m": None}
+        zeros = {**EXACT, "cable_length_m": ["0"] * 6}
         problem = planned(ROBOT1)["problem"]
         oblique = copy.deepcopy(problem["load"]["ellipsoid"])
         oblique[0][1] = oblique[1][0] = "1"
         pose = problem["space"]["pose"]
         for edits, words in [
-                ([("/problem/tolerances", zeros)], "tolerances"),
+                ([("/problem/tolerances", zeros)], "controlled by its cables' lengths"),
                 ([("/problem/load/ellipsoid", oblique)], "not diagonal"),
                 ([("/problem/space/flip", None), ("/problem/space/pose", {**pose, "px": "0*exp(theta)"})], "tan, exp"),
                 ([("/problem/space/flip", None), ("/problem/space/pose", {**pose, "px": "0*tan(theta)"})], "tan, exp"),

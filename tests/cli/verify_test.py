@@ -21,7 +21,8 @@ import expand  # noqa: E402
 VERIFY = os.path.join(SOURCE, "formal", "taut-verify")
 CORPUS = os.path.join(os.path.dirname(os.path.dirname(TAUT)), "tests", "certificates")
 ITEMS = os.path.join(SOURCE, "tests", "cli", "formal_items.yaml")
-PLANNED = [ROBOT1, ITEMS, *(os.path.join(CASES, name + ".yaml") for name in
+TOLERANCES = os.path.join(SOURCE, "tests", "cli", "formal_tolerances.yaml")
+PLANNED = [ROBOT1, ITEMS, TOLERANCES, *(os.path.join(CASES, name + ".yaml") for name in
                             ("robot1-roll-pitch-yaw", "robot1-free-box-qs-qg", "robot2-sphere-q1-q2",
                              "robot2-sphere-q2-q3", "robot2-free-q2-q3", "tutorial/03-a-smooth-move"))]
 # Of the corpus: rejected or malformed for what the statement does not say, so it is true all the same.
@@ -113,6 +114,28 @@ class Planned(Verify):
                 self.assertEqual(said.returncode, 3, said.stdout + said.stderr)
                 self.assertRegex(said.stderr, "below 0|ends before it begins")
 
+    def test_larger_tolerances_are_refused(self):
+        certificate = self.plan(TOLERANCES)
+        boxes = self.boxes(certificate)
+        stated = json.loads(text_of(certificate))
+        tolerances = stated["problem"]["tolerances"]
+        edits = [(key, k) for key in ("base_anchor_m", "platform_anchor_m", "wrench") for k in range(6)]
+        for key, k in [*edits, *((key, None) for key in ("load_point_m", "position_m", "orientation_rad"))]:
+            for large, code in (("0.99", 1), ("-0.99", 1 if key in ("wrench", "orientation_rad") else 3)):
+                large = large.replace("0.", "") if key == "wrench" else large
+                with self.subTest(key, k=k, large=large):
+                    mutant = copy.deepcopy(stated)
+                    value = large if k is None else [large if i == k else x for i, x in enumerate(tolerances[key])]
+                    mutant["problem"]["tolerances"][key] = value
+                    said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
+                    self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+        for value in (["0"] * 6, "0", 0):
+            mutant = copy.deepcopy(stated)
+            mutant["problem"]["tolerances"]["cable_length_m"] = value
+            said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
+            self.assertEqual(said.returncode, 3, said.stdout + said.stderr)
+            self.assertIn("cables' lengths", said.stderr)
+
     def test_other_boxes(self):
         certificate = self.plan(ROBOT1)
         boxes = json.loads(text_of(self.boxes(certificate)))["boxes"]
@@ -131,7 +154,7 @@ class Planned(Verify):
                 ("a new key of an item", '"at_tolerance_m":', '"spread": "1", "at_tolerance_m":'),
                 ("a key twice", '"point_m":', '"point_m": ["0","0","0"], "point_m":'),
                 ("a missing key", '"point_m"', '"point"'),
-                ("tolerances", '"tolerances":null', '"tolerances":{}'),
+                ("tolerances without keys", '"tolerances":null', '"tolerances":{}'),
                 ("another law", "straight-in-parameters", "geodesic"),
                 ("a function", '"pz":"pz"', '"pz":"tan(pz)"'),
                 ("a tower of powers", '"pz":"pz"', '"pz":"0*((pz^99)^99)^99"'),
