@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What it costs to have paths checked in Coq (docs/formal.md), by taut-verify, and by taut-check.
 
-All planned cases of Table I that Coq is told of, a spline, and one with load items. formal/build has to have run. Times
-are of the processor, user and system; processes run one after the other. Of coqc what it takes to load its libraries,
-measured beside, is taken away.
+All planned cases of Table I that Coq is told of, a spline, one with load items and one with tolerances. formal/build
+has to have run. Times are of the processor, user and system; processes run one after the other. Of coqc what it takes
+to load its libraries, measured beside, is taken away.
 
 Usage: formal.py RESULTS TAUT TAUT_CHECK [--quick]     writes RESULTS/formal.md; --quick measures everything once
 """
@@ -24,7 +24,8 @@ CASES = [os.path.join(ROOT, "cases", name + ".yaml") for name in (
     "robot1-slice-qs-qg", "robot1-slice-qs1-qg", "robot1-slice-qs2-qg", "robot1-free-box-qs-qg",
     "robot1-roll-pitch-yaw", "tutorial/03-a-smooth-move", "robot2-sphere-q1-q2", "robot2-sphere-q2-q3",
     "robot2-sphere-q1-q2-q3", "robot2-sphere-sigma-free-q2-q3", "robot2-free-q2-q3",
-    "robot2-free-q2-q3-astar")] + [os.path.join(ROOT, "tests", "cli", "formal_items.yaml")]
+    "robot2-free-q2-q3-astar")]
+CASES += [os.path.join(ROOT, "tests", "cli", name) for name in ("formal_items.yaml", "formal_tolerances.yaml")]
 
 HEAD = """# Paths checked in Coq
 

@@ -3,6 +3,7 @@
 // Nothing is proved with it: Coq computes all of it again.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -13,8 +14,8 @@
 
 namespace taut::formal {
 
-/// The balls in which what deviates is: the platform's position, the axis and angle by which it is turned, the load point,
-/// and each cable's anchors, at the base and at the platform.
+/// The balls in which what deviates is: the platform's position, the axis and angle by which it is turned, the load
+/// point, and each cable's anchors, at the base and at the platform.
 inline constexpr std::size_t kPosition = 0, kTurn = 1, kLoadPoint = 2, kBalls = 15;
 constexpr std::size_t base_ball(std::size_t cable) { return 3 + 2 * cable; }
 constexpr std::size_t platform_ball(std::size_t cable) { return 4 + 2 * cable; }
@@ -28,42 +29,34 @@ class Slopes {
 
   const std::optional<Block>& operator[](std::size_t ball) const { return blocks_[ball]; }
 
-  friend Slopes operator+(const Slopes& f, const Slopes& g) {
-    return merged(f, g, [](Interval x, Interval y) { return x + y; });
-  }
-  friend Slopes operator*(const Slopes& f, Interval c) {
-    Slopes result = f;
-    for (auto& block : result.blocks_) {
-      if (!block) continue;
-      for (Interval& x : *block) x *= c;
+  friend Slopes operator+(Slopes f, const Slopes& g) {
+    for (std::size_t ball = 0; ball < kBalls; ++ball) {
+      const std::optional<Block>& more = g.blocks_[ball];
+      std::optional<Block>& block = f.blocks_[ball];
+      if (!more) continue;
+      if (!block) block = Block{Interval(0.0), Interval(0.0), Interval(0.0)};
+      for (std::size_t i = 0; i < 3; ++i) (*block)[i] += (*more)[i];
     }
-    return result;
+    return f;
   }
-  friend Slopes operator-(const Slopes& f) { return f * Interval(-1.0); }
   friend Slopes operator-(const Slopes& f, const Slopes& g) { return f + -g; }
-  friend Slopes operator/(const Slopes& f, Interval c) {
-    Slopes result = f;
-    for (auto& block : result.blocks_) {
-      if (!block) continue;
-      for (Interval& x : *block) x /= c;
-    }
-    return result;
+  friend Slopes operator-(Slopes f) {
+    return f.each([](Interval& x) { x = -x; });
+  }
+  friend Slopes operator*(Slopes f, Interval c) {
+    return f.each([&](Interval& x) { x *= c; });
+  }
+  friend Slopes operator/(Slopes f, Interval c) {
+    return f.each([&](Interval& x) { x /= c; });
   }
 
  private:
-  template <class Operation>
-  static Slopes merged(const Slopes& f, const Slopes& g, Operation operation) {
-    Slopes result = f;
-    for (std::size_t ball = 0; ball < kBalls; ++ball) {
-      if (!g.blocks_[ball]) continue;
-      auto& block = result.blocks_[ball];
-      if (!block) {
-        block = g.blocks_[ball];
-      } else {
-        for (std::size_t i = 0; i < 3; ++i) (*block)[i] = operation((*block)[i], (*g.blocks_[ball])[i]);
-      }
+  template <class Change>
+  const Slopes& each(Change change) {
+    for (auto& block : blocks_) {
+      if (block) std::ranges::for_each(*block, change);
     }
-    return result;
+    return *this;
   }
 
   std::array<std::optional<Block>, kBalls> blocks_;
@@ -80,8 +73,8 @@ struct Reach {
   std::array<Interval, kBalls> radii{};
 };
 
-/// q(m) in `mid`; q(m) and q'(s) in `over`, where q' is of a machine that deviates; q'(s) = q(m) + k (s - m) + the sum of
-/// k_b · e_b for a k in `slope` and k_b in `slopes`, where e_b is how far it deviates in ball b.
+/// q(m) in `mid`; q(m) and q'(s) in `over`, where q' is of a machine that deviates; q'(s) = q(m) + k (s - m) + the sum
+/// of k_b · e_b for a k in `slope` and k_b in `slopes`, where e_b is how far it deviates in ball b.
 struct Slope {
   Interval mid{0.0}, over{0.0}, slope{0.0};
   Slopes slopes;
@@ -151,8 +144,8 @@ inline Vector within(std::size_t ball, Interval radius, Vector v) {
   return v;
 }
 
-/// The image of v under a turn by no more than `angle`, about any axis: v plus w × (v + something below |w| |v|), where w
-/// is along the axis and |w| <= angle. @pre v does not deviate
+/// The image of v under a turn by no more than `angle`, about any axis: v + w × (v + d), where w is along the axis,
+/// |w| <= angle and |d| <= angle |v|. @pre v does not deviate
 inline Vector turned(Interval angle, const Vector& v) {
   if (angle.upper() == 0) return v;
   const Interval change = symmetric(angle * norm({v[0].over, v[1].over, v[2].over}));

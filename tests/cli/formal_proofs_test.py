@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """taut formal with Coq, which formal/build has made ready: what is true is proved, and what is not is refused.
 
-.ci/nightly runs it; it takes some three minutes.
+.ci/nightly runs it; it takes some five minutes.
 
 Usage: formal_proofs_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
@@ -49,7 +49,8 @@ class Proofs(InFolder):
 class WhatIsTrue(Proofs):
     def test_the_kernel_proves_what_is_written(self):
         for case, options in ((ROBOT1, []), (SPHERE, ["--fast"]), (ROLL_PITCH_YAW, ["--fast"]),
-                              (ITEMS, ["--fast"]), (ITEMS, []), (SPLINE, ["--fast"]), (TOLERANCES, ["--fast"]), (TOLERANCES, [])):
+                              (ITEMS, ["--fast"]), (ITEMS, []), (SPLINE, ["--fast"]),
+                              (TOLERANCES, ["--fast"]), (TOLERANCES, [])):
             with self.subTest(case):
                 said = run(TAUT, "formal", self.plan(case), *options)
                 self.assertEqual(said.returncode, 0, said.stderr)
@@ -209,8 +210,8 @@ class TheStatement(Proofs):
 class WithinTolerances(Proofs):
     """Machines that deviate, chosen at random and computed otherwise: none may break limits that Coq takes for kept.
 
-    Where one of them is at a limit, Coq has to refuse it; limits that are a little further away than any of many of them
-    get have to be accepted.
+    Where one of them is at a limit, Coq has to refuse it; limits that are a little further away than any of many of
+    them get have to be accepted.
     """
     MACHINES = 300
     ROOM = 2.5  # times as far as they get: none of them deviates by all that it may in the worst direction at once

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """taut-verify, the checker extracted from Coq, which formal/build has made: what it accepts is true.
 
-.ci/nightly runs it; it takes some two minutes.
+.ci/run runs it; it takes half a minute.
 
 Usage: verify_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
