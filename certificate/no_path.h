@@ -38,6 +38,7 @@ class OutsideCells {
   explicit OutsideCells(const Problem& problem);
   OutsideCells(const OutsideCells&) = delete;
   OutsideCells& operator=(const OutsideCells&) = delete;
+  ~OutsideCells() = default;
 
   /// The part of a certificate's tree that is this cell: a leaf with the reason that the kernel proves, or halves.
   /// Empty where the kernel does not prove it with a few halvings.

@@ -225,7 +225,7 @@ int run_formal(const FormalArguments& arguments) {
   const std::string text = formal::coq_file(certificate, checked.sha256, *boxes,
                                             arguments.fast ? formal::Instance::kFast : formal::Instance::kExact);
   std::vector<FileContent> files = {{file, text}};
-  if (!arguments.boxes.empty()) files.push_back({arguments.boxes, formal::boxes_file(*boxes)});
+  if (!arguments.boxes.empty()) files.push_back({arguments.boxes, formal::boxes_file(certificate, *boxes)});
   write_whole(files);
   fmt::print("{}\nWritten: {} ({} boxes)\n", sentence(checked), sanitize(file.string()), count);
   std::fflush(stdout);

@@ -79,7 +79,8 @@ Inductive angles := TiltTorsion (phi theta sigma : expr) | RollPitchYaw (roll pi
   | Zyz (alpha beta gamma : expr).
 
 (** How far a machine may be from what is stated, in any direction: each cable's two anchors, and the load point; and how
-    far the platform may be from where it is meant to be, and by what angle turned. *)
+    far the platform may be from where it is meant to be, and by what angle turned: an expression without parameters, of
+    which only the magnitude counts. *)
 Record tolerances := Tolerances { of_anchors : six (Q * Q); of_load_point : Q; of_position : Q; of_orientation : expr }.
 
 Record machine := Machine { cables : six cable; load_point : vec Q; load : list item;

@@ -110,8 +110,8 @@ std::vector<std::string> expression_texts(const ExpressionTape& tape) {
 }
 
 /// The angle of a platform that may be turned.
-std::string orientation_text(const TolerancesText& tolerances, const SpaceText& space) {
-  return expression_texts(ExpressionTape({tolerances.orientation_rad}, {}, space.constants)).front();
+std::string orientation_text(const TolerancesText& tolerances) {
+  return expression_texts(ExpressionTape({tolerances.orientation_rad}, {}, {})).front();
 }
 
 void require_load_in_scope(const LoadText& load) {
@@ -228,7 +228,7 @@ std::string machine_text(const Problem& stated) {
     text += fmt::format(" ({}, {})", number(tolerances.base_anchor_m[i]), number(tolerances.platform_anchor_m[i]));
   }
   text += fmt::format(") {} {} {}\n|}}.\n", number(tolerances.load_point_m), number(tolerances.position_m),
-                      orientation_text(tolerances, stated.space));
+                      orientation_text(tolerances));
   return text;
 }
 
@@ -275,7 +275,7 @@ void require_in_scope(const Certificate& certificate) {
   const std::string items = problem.load.items.empty() ? "" : checker::kItemsClause;
   if (certificate.claim != checker::kProvedClaim + items) refuse("a claim of more than tensions and lengths");
   (void)expression_texts(pose_tape(problem.space));
-  if (problem.tolerances) (void)orientation_text(*problem.tolerances, problem.space);
+  if (problem.tolerances) (void)orientation_text(*problem.tolerances);
 }
 
 std::string coq_file(const Certificate& certificate, const std::string& sha256,
@@ -299,17 +299,18 @@ std::string coq_file(const Certificate& certificate, const std::string& sha256,
       "  motion := {};\n"
       "  path := [{}];\n"
       "  tension_margin := 0; length_margin := 0;\n"
-      "  bits := 30;\n"
+      "  bits := {};\n"
       "  boxes := [\n{}]\n|}}.\n\n"
       "Theorem feasible : statement cert.\n"
       "Proof. apply {}.check_sound. vm_cast_no_check (eq_refl true). Qed.\n"
       "Print Assumptions feasible.\n",
       sha256, fmt::join(names, ", "), machine_text(stated),
       certificate.path.interpolation == Interpolation::kStraight ? "Straight" : "Spline",
-      fmt::join(waypoints, ";\n           "), boxes_text(boxes), instance == Instance::kExact ? "Exact" : "Fast");
+      fmt::join(waypoints, ";\n           "), bits(certificate.problem), boxes_text(boxes),
+      instance == Instance::kExact ? "Exact" : "Fast");
 }
 
-std::string boxes_file(const std::vector<std::vector<Box>>& boxes) {
+std::string boxes_file(const Certificate& certificate, const std::vector<std::vector<Box>>& boxes) {
   nlohmann::json all = nlohmann::json::array();
   for (const std::vector<Box>& segment : boxes) {
     nlohmann::json list = nlohmann::json::array();
@@ -321,7 +322,7 @@ std::string boxes_file(const std::vector<std::vector<Box>>& boxes) {
     }
     all.push_back(std::move(list));
   }
-  return nlohmann::json{{"boxes", std::move(all)}}.dump() + "\n";
+  return nlohmann::json{{"bits", bits(certificate.problem)}, {"boxes", std::move(all)}}.dump() + "\n";
 }
 
 }  // namespace taut::formal

@@ -21,8 +21,8 @@ void require_in_scope(const Certificate& certificate);
 [[nodiscard]] std::string coq_file(const Certificate& certificate, const std::string& sha256,
                                    const std::vector<std::vector<Box>>& boxes, Instance instance);
 
-/// The boxes alone, which taut-verify reads beside the certificate: {"boxes": [[{"upto", "scale", "inverse",
+/// The boxes alone, which taut-verify reads beside the certificate: {"bits", "boxes": [[{"upto", "scale", "inverse",
 /// "densities"}, …], …]}, one list a segment.
-[[nodiscard]] std::string boxes_file(const std::vector<std::vector<Box>>& boxes);
+[[nodiscard]] std::string boxes_file(const Certificate& certificate, const std::vector<std::vector<Box>>& boxes);
 
 }  // namespace taut::formal

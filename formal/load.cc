@@ -39,7 +39,7 @@ Load::Item Load::item(const LoadItem& stated, const LoadText& load, Interval loa
     if (!result.wrenches.empty()) {
       wrench = {wrench[0] - result.wrenches[0][0], wrench[1] - result.wrenches[0][1]};
     }
-    result.wrenches.push_back(std::move(wrench));
+    result.wrenches.push_back(wrench);
   }
   return result;
 }

@@ -75,15 +75,13 @@ std::vector<Slope> evaluate(const ExpressionTape& tape, const std::vector<Slope>
   return values;
 }
 
-Interval constant(const ExpressionText& text, const std::map<std::string, DecimalText>& constants) {
-  return evaluate(ExpressionTape({text}, {}, constants), {}).front().mid;
-}
+Interval constant(const ExpressionText& text) { return evaluate(ExpressionTape({text}, {}, {}), {}).front().mid; }
 
 Machine machine(const Problem& problem) {
   Machine m;
   const TolerancesText tolerances = problem.tolerances.value_or(TolerancesText{});
   m.radii[kPosition] = exact(tolerances.position_m);
-  m.radii[kTurn] = constant(tolerances.orientation_rad, problem.space.constants);
+  m.radii[kTurn] = constant(tolerances.orientation_rad);
   m.radii[kLoadPoint] = exact(tolerances.load_point_m);
   const Vector load_point = within(kLoadPoint, m.radii[kLoadPoint], exact(problem.load.point_m));
   for (std::size_t i = 0; i < 6; ++i) {
@@ -155,8 +153,8 @@ bool invert(Matrix a, Matrix& inverse) {
 /// One segment's search.
 class Judge {
  public:
-  Judge(const Problem& problem, const ExpressionTape& tape, const Segment& segment)
-      : problem_(problem), tape_(tape), segment_(segment), machine_(machine(problem)) {}
+  Judge(const Problem& problem, const Machine& machine, const ExpressionTape& tape, const Segment& segment)
+      : problem_(problem), tape_(tape), segment_(segment), machine_(machine) {}
 
   /// Sets the numbers of a box; whether Coq will accept it. Under run_upward().
   bool judge(Box& box) {
@@ -292,7 +290,7 @@ class Judge {
   const Problem& problem_;
   const ExpressionTape& tape_;
   const Segment& segment_;
-  Machine machine_;
+  const Machine& machine_;
   Reach reach_;
   std::array<Vector, 3> columns_;  ///< of the rotation
   std::array<Part, 6> parts_;      ///< what the load makes of each row of C
@@ -305,12 +303,36 @@ class Judge {
 
 }  // namespace
 
+int bits(const Problem& problem) {
+  double largest = 0, shortest = HUGE_VAL;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (const DecimalText& x : problem.robot.base_anchors_m[i]) {
+      largest = std::max(largest, std::abs(midpoint_approx(exact(x))));
+    }
+    shortest = std::min(shortest, midpoint_approx(exact(problem.robot.length_m[i].lower)));
+  }
+  constexpr int kUsual = 30, kSpareBits = 4, kMost = 200;
+  const double ratio = largest / std::max(shortest, 1e-3);
+  return ratio > 1 ? std::clamp(kUsual + std::ilogb(ratio) - kSpareBits, kUsual, kMost) : kUsual;
+}
+
 std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certificate, const SearchProgress& progress,
                                                         const std::stop_token& stop) {
   const Problem& problem = certificate.problem;
   std::vector<std::string> names;
   for (const Parameter& parameter : problem.space.parameters) names.push_back(parameter.name);
   const ExpressionTape tape({problem.space.pose.begin(), problem.space.pose.end()}, names, problem.space.constants);
+  Machine made;
+  const bool is_made = run_upward([&] {
+    Faults<Interval>::clear();
+    made = machine(problem);
+  });
+  if (!is_made) {
+    throw InputError(
+        fmt::format("tolerances.orientation: got '{}', expected an expression without roots of 0 and "
+                    "divisions by 0, which Coq does not enclose",
+                    problem.tolerances.value_or(TolerancesText{}).orientation_rad));
+  }
   std::vector<std::vector<Box>> all;
   std::size_t count = 0;
   for (std::size_t k = 0; k < certificate.path.segments(); ++k) {
@@ -325,7 +347,7 @@ std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certi
       open.pop_back();
       bool accepted = false;
       const bool is_valid = run_upward([&] {
-        if (!judge) judge.emplace(problem, tape, segment);
+        if (!judge) judge.emplace(problem, made, tape, segment);
         Faults<Interval>::clear();
         accepted = judge->judge(box);
       });

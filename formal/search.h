@@ -24,6 +24,9 @@ struct Box {
   std::array<long, 6> densities{};               ///< nearly D^-1 w0 there
 };
 
+/// With how many bits Coq has to compute: more where coordinates are large, as those of a site are.
+[[nodiscard]] int bits(const Problem& problem);
+
 /// @param done  segments that are finished
 using SearchProgress = std::function<void(std::size_t done, std::size_t all, std::size_t boxes)>;
 

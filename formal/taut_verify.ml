@@ -281,23 +281,23 @@ let item gravity json =
   | _ -> refuse place "expected an item of one kind"
 
 (* Tolerances but that of the ellipsoid's wrench, and that. *)
-let tolerances constants json =
+let tolerances json =
   let place = "problem.tolerances" in
   let zero = fraction Int.zero Int.one in
   let all x = { at1 = x; at2 = x; at3 = x; at4 = x; at5 = x; at6 = x } in
-  if is_empty json then
+  if json = `Null then
     ({ of_anchors = all (zero, zero); of_load_point = zero; of_position = zero; of_orientation = Number zero }, all zero)
   else begin
     let f = fields place [ "base_anchor_m"; "platform_anchor_m"; "load_point_m"; "wrench"; "position_m";
                            "orientation_rad"; "cable_length_m" ] json in
-    if not (is_empty (get "cable_length_m" f)) then refuse place "cables' lengths, which Coq is not told";
+    if get "cable_length_m" f <> `Null then refuse place "cables' lengths, which Coq is not told";
     let sizes key = six place (size place) (get key f) in
     let b = sizes "base_anchor_m" and p = sizes "platform_anchor_m" in
     ({ of_anchors = { at1 = (b.at1, p.at1); at2 = (b.at2, p.at2); at3 = (b.at3, p.at3); at4 = (b.at4, p.at4);
                       at5 = (b.at5, p.at5); at6 = (b.at6, p.at6) };
        of_load_point = size place (get "load_point_m" f);
        of_position = size place (get "position_m" f);
-       of_orientation = expression { parameters = []; constants } place (text place (get "orientation_rad" f)) },
+       of_orientation = expression { parameters = []; constants = [] } place (text place (get "orientation_rad" f)) },
      six place (number place) (get "wrench" f))
   end
 
@@ -326,7 +326,7 @@ let cables json =
   | [ a; b; c; d; e; f ] -> { at1 = a; at2 = b; at3 = c; at4 = d; at5 = e; at6 = f }
   | _ -> refuse place "expected six cables"
 
-(* The parameters' names, the constants, and the pose. What says which values are one pose, and in what range they stay, says nothing
+(* The parameters' names, and the pose. What says which values are one pose, and in what range they stay, says nothing
    of which motions are feasible. *)
 let space json =
   let place = "problem.space" in
@@ -346,7 +346,7 @@ let space json =
   let pose = fields place ([ "px"; "py"; "pz" ] @ keys) (get "pose" f) in
   let value key = expression { parameters; constants } (place ^ ".pose." ^ key) (text place (get key pose)) in
   let angles = match keys with [ a; b; c ] -> kind (value a) (value b) (value c) | _ -> assert false in
-  (parameters, constants, { vx = value "px"; vy = value "py"; vz = value "pz" }, angles)
+  (parameters, { vx = value "px"; vy = value "py"; vz = value "pz" }, angles)
 
 (* ---- The path and the boxes ---- *)
 
@@ -380,14 +380,22 @@ let certificate json boxes =
   if find "version" all <> Some (`Int 4) then refuse "certificate" "a version that Coq is not told: expected 4";
   if find "verdict" all <> Some (`String "proved") then refuse "certificate" "expected the verdict 'proved'";
   let f = fields "problem" [ "robot"; "load"; "space"; "query"; "name"; "tolerances" ] (get "problem" all) in
-  let parameters, constants, pose_position, pose_angles = space (get "space" f) in
-  let tolerance, shift = tolerances constants (get "tolerances" f) in
+  let parameters, pose_position, pose_angles = space (get "space" f) in
+  let tolerance, shift = tolerances (get "tolerances" f) in
   let load_point, load = load shift (get "load" f) in
+  let is_zero x = Int.sign x.qnum = 0 in
+  let of_load = [ tolerance.of_load_point; shift.at1; shift.at2; shift.at3; shift.at4; shift.at5; shift.at6 ] in
+  let is_ellipsoid = function Ellipsoid _ -> true | _ -> false in
+  if not (List.for_all is_ellipsoid load || List.for_all is_zero of_load) then
+    refuse "problem.tolerances" "a tolerance of the load beside items, which have their own";
+  let all_boxes = fields "boxes" [ "bits"; "boxes" ] boxes in
+  let bits = whole "boxes" (get "bits" all_boxes) in
+  if Int.sign bits <= 0 || Int.gt bits (Int.of_int 1000) then refuse "boxes" "bits out of range";
   let motion, path = path (List.length parameters) (get "path" all) in
   let zero = fraction Int.zero Int.one in
   { subject = { cables = cables (get "robot" f); load_point; load; pose_position; pose_angles; tolerance };
-    motion; path; tension_margin = zero; length_margin = zero; bits = Int.of_int 30;
-    boxes = List.map (fun l -> List.map box (elements "boxes" l)) (elements "boxes" (get "boxes" (fields "boxes" [ "boxes" ] boxes))) }
+    motion; path; tension_margin = zero; length_margin = zero; bits;
+    boxes = List.map (fun l -> List.map box (elements "boxes" l)) (elements "boxes" (get "boxes" all_boxes)) }
 
 (* ---- *)
 

@@ -134,7 +134,7 @@ class BodyGaps {
   /// Contains how much farther than the least that may be required of the pair two of its bodies' points are apart, on
   /// the undisturbed machine, at every t of T; `only_at_mid`: at m. Where it is not positive, the pair is not farther
   /// apart than required there. @pre as many shares as either body has points
-  [[nodiscard]] I distance(const CheckedPair<I>& pair, const PointPair& points, bool only_at_mid) const;
+  [[nodiscard]] I distance(const CheckedPair<I>& pair, const PointPair& shares, bool only_at_mid) const;
   /// Claim, if true: at m, on the undisturbed machine, this point of one body is inside of the other, a watertight
   /// mesh. @pre points.inside
   [[nodiscard]] bool is_inside_at_mid(const CheckedPair<I>& pair, const PointPair& points) const;
@@ -142,7 +142,7 @@ class BodyGaps {
   /// are nowhere farther apart than required. The vectors from the second to the first of these four pairs of points
   /// are around 0, and around a ball about it where bodies may overlap. @pre neither is a half-space, and neither a
   /// mesh
-  [[nodiscard]] bool meet(const CheckedPair<I>& pair, const std::array<PointPair, 4>& points) const;
+  [[nodiscard]] bool meet(const CheckedPair<I>& pair, const std::array<PointPair, 4>& shares) const;
 
  private:
   using Form = SlopeForm<I, Slope>;
@@ -171,7 +171,7 @@ class BodyGaps {
   [[nodiscard]] std::array<Projection, 2> cable(std::size_t i, const Turned& u, bool in_platform,
                                                 const std::array<Upper, 2>& shifts) const;
   [[nodiscard]] Projections platform_points(const ConvexBody<I>& body, const Turned& u, bool in_platform) const;
-  [[nodiscard]] std::array<Upper, 2> end_shifts(const CheckedPair<I>& pair, std::size_t cable, bool in_platform) const;
+  [[nodiscard]] std::array<Upper, 2> end_shifts(const CheckedPair<I>& pair, std::size_t i, bool in_platform) const;
   [[nodiscard]] Projections first(const CheckedPair<I>& pair, const Turned& u, bool in_platform) const;
   [[nodiscard]] std::vector<Vector3<Form>> points(const CheckedPair<I>& pair, bool is_first,
                                                   const std::optional<std::uint32_t>& element) const;

@@ -141,10 +141,10 @@ void require_no_inertia_box(const Cursor& json) {
   });
 }
 
-void require_no_tolerance_of_load(const Cursor& json, const ToleranceBounds& tolerances) {
+void require_no_tolerance_of_load(const Cursor& tolerances, const ToleranceBounds& bounds) {
   constexpr const char* kExpected = "no tolerance of the load beside items";
-  json["load_point_m"].require(tolerances.load_point == 0, kExpected);
-  for (std::size_t i = 0; i < 6; ++i) json["wrench"].require(tolerances.wrench[i] == 0, kExpected);
+  tolerances["load_point_m"].require(bounds.load_point == 0, kExpected);
+  for (std::size_t i = 0; i < 6; ++i) tolerances["wrench"].require(bounds.wrench[i] == 0, kExpected);
 }
 
 std::vector<LoadChoice> read_loads(const Cursor& json, const std::vector<LoadItem>& items) {

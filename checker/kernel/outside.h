@@ -57,7 +57,7 @@ struct ContactReason {
 /// The machine exactly as a problem states it, at the working precision. Refers to the problem.
 struct StatedMachine {
   /// @throws Undefined where the ellipsoid's matrix has no inverse, or a body has no place.
-  explicit StatedMachine(const Problem& problem);
+  explicit StatedMachine(const Problem& stated);
 
   const Problem& problem;
   std::array<Vector3<Ball>, kCables> base;      ///< a_i

@@ -18,7 +18,7 @@ taut_add_test(checker mutation LABELS certificates LIBS taut_checker SHARDS 3 CO
 taut_add_test(checker taut_check LABELS certificates LIBS taut_checker)
 target_compile_definitions(checker_taut_check_test PRIVATE TAUT_CHECK="$<TARGET_FILE:taut-check>")
 add_dependencies(checker_taut_check_test taut-check)
-taut_add_test(checker agreement LABELS certificates LIBS taut::case taut_checker taut::certificate)
+taut_add_test(checker agreement LABELS certificates slow LIBS taut::case taut_checker taut::certificate)
 taut_add_test(checker legs LABELS certificates LIBS taut_checker)
 taut_add_test(checker no_path LABELS unit LIBS taut_checker)
 taut_add_test(checker signature LABELS unit LIBS taut_checker taut::certificate OpenSSL::Crypto)

@@ -21,7 +21,6 @@ from command_line import CASES, CHECK, InFolder, TAUT, main, run, text_of
 CASE = os.path.join(CASES, "robot1-slice-qs-qg.yaml")
 AUDITED = os.path.join(CASES, "audits", "robot1-planned.yaml")
 RESULTS = ("certificate.json", "controller.csv", "path.csv", "report.html")
-AT_LENGTH = "TAUT_AT_LENGTH" in os.environ  # more moments, and finer steps of memory
 
 
 def may_mount():
@@ -48,7 +47,7 @@ class Robustness(InFolder):
         usual = time.monotonic() - begin
         chance = random.Random(20261121)
         ended = set()
-        for number in range(40 if AT_LENGTH else 8):
+        for number in range(40):
             command = [TAUT, "plan", CASE] if number % 2 else [TAUT, "audit", AUDITED]
             with subprocess.Popen([*command, "--out", self.path("out")], stdout=subprocess.DEVNULL,
                                   stderr=subprocess.DEVNULL) as process:
@@ -180,7 +179,7 @@ class Robustness(InFolder):
                     enough = middle
                 else:
                     too_little = middle
-            step = enough // (80 if AT_LENGTH else 12)
+            step = enough // 80
             codes = {kilobytes: ends_with(kilobytes) for kilobytes in range(enough // 2, enough, step)}
             # 127: the loader had not enough to begin with.
             self.assertLessEqual(set(codes.values()), {0, 4, 126, 127}, codes)

@@ -10,6 +10,7 @@ import copy
 import functools
 import json
 import os
+import re
 import sys
 import unittest
 
@@ -32,7 +33,9 @@ TRUE = {"roll_pitch_yaw_read_as_zyz": "a margin that is less", "start_one_ulp_of
         "flip_of_euler_angles": "which values are one pose", "flip_of_others": "which values are one pose",
         "flip_theta_periodic": "which values are one pose", "flip_phi_real": "which values are one pose",
         "range_with_a_name": "ranges of parameters", "limit_negative": "signs of limits",
-        "waypoint_rounded": "that waypoints are of 53 bits", "loads_of_the_same_name": "names"}
+        "waypoint_rounded": "that waypoints are of 53 bits", "loads_of_the_same_name": "names",
+        **{f"tight_{what}_raised": "a margin that is less" for what in
+           ("base_anchor", "platform_anchor", "load_point", "position", "orientation", "wrench")}}
 
 
 def verify(certificate, boxes):
@@ -129,21 +132,42 @@ class Planned(Verify):
                     mutant["problem"]["tolerances"][key] = value
                     said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
                     self.assertEqual(said.returncode, code, said.stdout + said.stderr)
-        for value in (["0"] * 6, "0", 0):
+        for value in (["0"] * 6, "0", 0, []):
             mutant = copy.deepcopy(stated)
             mutant["problem"]["tolerances"]["cable_length_m"] = value
             said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
             self.assertEqual(said.returncode, 3, said.stdout + said.stderr)
             self.assertIn("cables' lengths", said.stderr)
 
+    def test_a_tolerance_of_the_load_beside_items(self):
+        certificate = self.plan(ITEMS)
+        boxes = self.boxes(certificate)
+        stated = json.loads(text_of(certificate))
+        exact = {"base_anchor_m": ["0"] * 6, "platform_anchor_m": ["0"] * 6, "load_point_m": "0", "wrench": ["0"] * 6,
+                 "position_m": "0", "orientation_rad": "0", "cable_length_m": None}
+        for edit, code in (({}, 0), ({"wrench": ["0"] * 5 + ["1e9"]}, 3), ({"load_point_m": "1e-9"}, 3),
+                           ({"orientation_rad": "sqrt(0)"}, 1), ({"orientation_rad": "px"}, 3)):
+            stated["problem"]["tolerances"] = {**exact, **edit}
+            said = verify(self.write("mutant.json", json.dumps(stated)), boxes)
+            self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+
+    def test_a_site_far_from_its_origin(self):
+        text = text_of(ITEMS).replace("x: [-8, 8]", "x: [499992, 500008]")
+        text = re.sub(r"\[(-?15|0), (-?10), 15\]", lambda m: f"[{int(m.group(1)) + 500000}, {m.group(2)}, 15]", text)
+        text = re.sub(r"px: (-?4),", lambda m: f"px: {int(m.group(1)) + 500000},", text)
+        certificate = self.plan(self.write("far.yaml", text))
+        said = verify(certificate, self.boxes(certificate))
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+
     def test_other_boxes(self):
         certificate = self.plan(ROBOT1)
-        boxes = json.loads(text_of(self.boxes(certificate)))["boxes"]
+        stated = json.loads(text_of(self.boxes(certificate)))
+        boxes, bits = stated["boxes"], stated["bits"]
         for name, other in [("none", []), ("of fewer segments", boxes[:-1]), ("of more", boxes + boxes[-1:]),
                             ("a gap", [boxes[0][:-1], *boxes[1:]]), ("none on a segment", [[], *boxes[1:]]),
                             ("zeros", [[{**box, "inverse": [[0] * 6] * 6} for box in segment] for segment in boxes])]:
             with self.subTest(name):
-                said = verify(certificate, self.write("other.json", json.dumps({"boxes": other})))
+                said = verify(certificate, self.write("other.json", json.dumps({"boxes": other, "bits": bits})))
                 self.assertEqual(said.returncode, 1, said.stderr)
 
     def test_what_it_does_not_know(self):
@@ -197,7 +221,7 @@ class Corpus(Verify):
         try:
             with open(self.file(name), encoding="utf-8") as file:
                 c = json.load(file)
-            return [c["problem"][key] for key in ("robot", "load", "space")], c["path"]
+            return [c["problem"][key] for key in ("robot", "load", "space", "tolerances")], c["path"]
         except (ValueError, KeyError, TypeError):
             return None
 

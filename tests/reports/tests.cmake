@@ -11,7 +11,7 @@ target_link_libraries(reports_write_samples PRIVATE taut_common taut::reports)
 add_test(NAME reports.browser
   COMMAND "${TAUT_NODE}" "${CMAKE_CURRENT_SOURCE_DIR}/reports/browser_test.mjs" $<TARGET_FILE:taut>
     $<TARGET_FILE:reports_write_samples> "${PROJECT_SOURCE_DIR}/cases")
-set_tests_properties(reports.browser PROPERTIES LABELS slow TIMEOUT 1800)
+set_tests_properties(reports.browser PROPERTIES LABELS slow TIMEOUT 1800 COST 300)
 add_test(NAME reports.words COMMAND "${TAUT_NODE}" --test "${CMAKE_CURRENT_SOURCE_DIR}/reports/words_test.mjs"
   "${CMAKE_CURRENT_SOURCE_DIR}/reports/data_test.mjs" "${CMAKE_CURRENT_SOURCE_DIR}/reports/nearness_test.mjs")
 set_tests_properties(reports.words PROPERTIES LABELS unit)
