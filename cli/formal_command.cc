@@ -107,12 +107,13 @@ std::vector<std::string> axioms(const std::string& printed) {
 }
 
 void print_theorem(const Certificate& certificate, const FinishedProgram& coq, const FormalArguments& arguments) {
+  const char* const machines =
+      certificate.problem.tolerances ? "machine and pose within the tolerances and every " : "";
   print_wrapped(
       fmt::format("Checked by Coq's kernel in {:.1f} s: everywhere along the path of {}, for every {}wrench of the "
-                  "load, exactly one "
-                  "list of tensions balances it, and all tensions and all lengths are strictly within their limits.\n",
-                  coq.seconds, plural(certificate.path.segments(), "segment"),
-                  certificate.problem.tolerances ? "machine and pose within the tolerances and every " : ""));
+                  "load, exactly one list of tensions balances it, and all tensions and all lengths are strictly "
+                  "within their limits.\n",
+                  coq.seconds, plural(certificate.path.segments(), "segment"), machines));
   print_wrapped(
       "This is the theorem 'feasible' at the end of the file, about the numbers at its head (docs/formal.md). It does "
       "not say how large the margins are, that parameters stay in their ranges, or that the path leads where the query "

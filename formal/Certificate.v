@@ -23,6 +23,6 @@ Record certificate := Certificate {
 Definition statement (c : certificate) : Prop :=
   wrench_feasible (subject c) (motion c) (path c) (tension_margin c) (length_margin c).
 
-(** A machine deviates by a vector in each of these balls: of the platform's position, of the turn of its axes, of the load
-    point, and of each cable's anchors, at the base and at the platform. *)
+(** A machine deviates by a vector in each of these balls: of the platform's position, of the turn of its axes, of the
+    load point, and of each cable's anchors, at the base and at the platform. *)
 Definition balls := 15%nat.

@@ -119,12 +119,8 @@ Proof.
   intros a l. assert (same : forall q v, 0 <= Q2R q -> near q (real_vec v) v).
   { intros q v h. unfold near. now rewrite minus_itself, norm_of_zero. }
   split; [| now apply same].
-  assert (e := fun i h => same _ (base (nth6 (cables m) i)) (proj1 (a i h))).
-  assert (f := fun i h => same _ (platform (nth6 (cables m) i)) (proj2 (a i h))).
-  assert (both : forall i, (i < 6)%nat ->
-    near (fst (nth6 (of_anchors (tolerance m)) i)) (real_vec (base (nth6 (cables m) i))) (base (nth6 (cables m) i)) /\
-    near (snd (nth6 (of_anchors (tolerance m)) i)) (real_vec (platform (nth6 (cables m) i))) (platform (nth6 (cables m) i))).
-  { intros i h. split; [now apply e | now apply f]. }
+  assert (both := fun i h => conj (same _ (base (nth6 (cables m) i)) (proj1 (a i h)))
+                                  (same _ (platform (nth6 (cables m) i)) (proj2 (a i h)))).
   unfold all6, fold6, zip6, itself, map6. cbn [at1 at2 at3 at4 at5 at6 anchors fst snd].
   repeat split; first [apply (both 0%nat); lia | apply (both 1%nat); lia | apply (both 2%nat); lia |
     apply (both 3%nat); lia | apply (both 4%nat); lia | apply (both 5%nat); lia].
@@ -137,6 +133,5 @@ Proof.
   - rewrite Rabs_R0. apply Rabs_pos.
   - destruct P as [[x y z] turn]. cbn [position Statement.turn]. f_equal.
     + unfold plus. cbn [vx vy vz]. f_equal; ring.
-    + apply functional_extensionality. intros v. unfold turn_about. rewrite cos_0, sin_0.
-      destruct (turn v) as [a b c]. unfold plus, times, cross, dot. cbn [vx vy vz]. f_equal; ring.
+    + apply functional_extensionality. intros v. symmetry. apply turn_about_by_nothing.
 Qed.

@@ -59,9 +59,10 @@ Inductive vectors := Ball (radius : Q) | Disc (radius : Q) (normal : vec Q)
 Inductive axes := OfWorld | OfPlatform.
 
 (** The load is a sum of sets of wrenches. An ellipsoid is the set of all w with (w - c)' shape (w - c) <= 1, where c is
-    [center] plus any share of [shift] from -1 to 1; its six coordinates are force and moment. A weight has any mass from [lower] to [upper], and its centre of gravity
-    anywhere within [tolerance] of [point], a point in the platform's axes. Forces act at such a point. Load cases are
-    wrenches, force and moment about such a point, and all that are between them. *)
+    [center] plus any share of [shift] from -1 to 1; its six coordinates are force and moment. A weight has any mass from
+    [lower] to [upper], and its centre of gravity anywhere within [tolerance] of [point], a point in the platform's axes.
+    Forces act at such a point. Load cases are wrenches, force and moment about such a point, and all that are between
+    them. *)
 Inductive item :=
   | Ellipsoid (center shift : six Q) (shape : six (six Q))
   | Weight (lower upper : Q) (gravity : vec Q) (point : vec Q) (tolerance : Q)
@@ -78,8 +79,8 @@ Inductive expr :=
 Inductive angles := TiltTorsion (phi theta sigma : expr) | RollPitchYaw (roll pitch yaw : expr)
   | Zyz (alpha beta gamma : expr).
 
-(** How far a machine may be from what is stated, in any direction: each cable's two anchors, and the load point; and how
-    far the platform may be from where it is meant to be, and by what angle turned: an expression without parameters, of
+(** How far a machine may be from what is stated, in any direction: each cable's two anchors, and the load point; and
+    how far the platform may be from where it is meant to be, and by what angle turned: an expression without parameters, of
     which only the magnitude counts. *)
 Record tolerances := Tolerances { of_anchors : six (Q * Q); of_load_point : Q; of_position : Q; of_orientation : expr }.
 

@@ -323,15 +323,16 @@ std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certi
   for (const Parameter& parameter : problem.space.parameters) names.push_back(parameter.name);
   const ExpressionTape tape({problem.space.pose.begin(), problem.space.pose.end()}, names, problem.space.constants);
   Machine made;
-  const bool is_made = run_upward([&] {
-    Faults<Interval>::clear();
+  const bool is_turn_enclosed = run_upward([&] {
     made = machine(problem);
+    Faults<Interval>::clear();
+    if (problem.tolerances) (void)constant(problem.tolerances->orientation_rad);
   });
-  if (!is_made) {
+  if (!is_turn_enclosed) {
     throw InputError(
         fmt::format("tolerances.orientation: got '{}', expected an expression without roots of 0 and "
                     "divisions by 0, which Coq does not enclose",
-                    problem.tolerances.value_or(TolerancesText{}).orientation_rad));
+                    problem.tolerances->orientation_rad));
   }
   std::vector<std::vector<Box>> all;
   std::size_t count = 0;

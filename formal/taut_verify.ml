@@ -407,8 +407,9 @@ let () =
         let c = certificate (read file) (read boxes) in
         if Exact.N.C.check c then
           Printf.printf
-            "verified: everywhere along the path (%d segment%s), for every machine and pose within the tolerances and every \
-             wrench of the load, exactly one list of tensions balances it, and all tensions and all lengths are strictly within their limits.\n\
+            "verified: everywhere along the path (%d segment%s), for every machine and pose within the tolerances and \
+             every wrench of the load, exactly one list of tensions balances it, and all tensions and all lengths are \
+             strictly within their limits.\n\
              Not verified: how large margins are, that parameters stay in their ranges, that the path leads where the \
              query asked, and who signed.\n"
             (List.length c.boxes) (if List.length c.boxes = 1 then "" else "s")

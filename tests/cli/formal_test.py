@@ -253,6 +253,11 @@ class WhatIsRefused(Formal):
             with self.subTest(words):
                 self.refused(self.altered(*edits), words)
 
+    def test_an_orientation_that_coq_does_not_enclose(self):
+        certificate = copy.deepcopy(planned(TOLERANCES))
+        put(certificate["problem"], "/tolerances/orientation_rad", "sqrt(0)")
+        self.refused(sealed(certificate), "roots of 0")
+
     def test_other_kinds_of_certificates(self):
         for arguments, words in [
                 (["plan", NO_PATH], "certificate"),
