@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What it costs to have paths checked in Coq (docs/formal.md), by taut-verify, and by taut-check.
 
-All planned cases of Table I that Coq is told of, a spline, one with load items and one with tolerances. formal/build
-has to have run. Times are of the processor, user and system; processes run one after the other. Of coqc what it takes
-to load its libraries, measured beside, is taken away.
+All planned cases of Table I that Coq is told of, a spline, and cases with load items, tolerances, an oblique ellipsoid
+and a geodesic. formal/build has to have run. Times are of the processor, user and system; processes run one after the
+other. Of coqc what it takes to load its libraries, measured beside, is taken away.
 
 Usage: formal.py RESULTS TAUT TAUT_CHECK [--quick]     writes RESULTS/formal.md; --quick measures everything once
 """
@@ -25,7 +25,9 @@ CASES = [os.path.join(ROOT, "cases", name + ".yaml") for name in (
     "robot1-roll-pitch-yaw", "tutorial/03-a-smooth-move", "robot2-sphere-q1-q2", "robot2-sphere-q2-q3",
     "robot2-sphere-q1-q2-q3", "robot2-sphere-sigma-free-q2-q3", "robot2-free-q2-q3",
     "robot2-free-q2-q3-astar")]
-CASES += [os.path.join(ROOT, "tests", "cli", name) for name in ("formal_items.yaml", "formal_tolerances.yaml")]
+CASES += [os.path.join(ROOT, "tests", "cli", name) for name in (
+    "formal_items.yaml", "formal_tolerances.yaml", "formal_oblique.yaml")]
+CASES.append(os.path.join(ROOT, "cases", "audits", "robot1-geodesic.yaml"))
 
 HEAD = """# Paths checked in Coq
 
@@ -62,7 +64,7 @@ def coqc(folder, text):
 
 def row(case, folder):
     certificate, written, boxes = (os.path.join(folder, name) for name in ("certificate.json", "path.v", "boxes.json"))
-    seconds([TAUT, "plan", case, "--out", folder, "--no-report", "--headroom", "0"], 1)
+    seconds([TAUT, "audit" if "/audits/" in case else "plan", case, "--out", folder, "--no-report", "--headroom", "0"], 1)
     said = seconds([TAUT, "formal", certificate, "--no-coq", "--out", written, "--boxes", boxes], 1)[1]
     check, verify = (seconds(command, REPEATS)[0]
                      for command in ([CHECK, certificate], [VERIFY, certificate, boxes]))

@@ -90,7 +90,7 @@ std::string why_no_coq(const fs::path& library) {
   std::error_code ignored;
   if (fs::is_regular_file(library / "Verify.vo", ignored)) return {};
   return fmt::format(
-      "the checker in Coq is not compiled. {} compiles it, in some two minutes; 'build --into FOLDER', "
+      "the checker in Coq is not compiled. {} compiles it, in some three minutes; 'build --into FOLDER', "
       "then 'taut formal --library FOLDER', where you may not write there",
       sanitize((library / "build").string()));
 }

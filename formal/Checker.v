@@ -136,6 +136,7 @@ Definition v_cross u v := Vec
   (f_sub (f_mul (vy u) (vz v)) (f_mul (vz u) (vy v)))
   (f_sub (f_mul (vz u) (vx v)) (f_mul (vx u) (vz v)))
   (f_sub (f_mul (vx u) (vy v)) (f_mul (vy u) (vx v))).
+Definition v_dot u v := f_add (f_add (f_mul (vx u) (vx v)) (f_mul (vy u) (vy v))) (f_mul (vz u) (vz v)).
 Definition v_rational (v : vec Q) := let k q := constant (fraction q) in Vec (k (vx v)) (k (vy v)) (k (vz v)).
 
 (** A point somewhere in a ball of this radius around V. *)
@@ -158,30 +159,44 @@ Definition v_turned (e : interval) (v : vec form) : vec form :=
       (moved (vz v) (Vec y (I.neg x) zero)).
 Definition is_zero_number (e : expr) : bool := match e with Number q => Qeq_bool q 0 | _ => false end.
 
+(** Turned about the axis N by F. *)
+Definition f_turn_about (N : vec form) (F : form) (v : vec form) : vec form :=
+  let c := f_cos F in
+  v_add (v_add (v_scale c v) (v_scale (f_sin F) (v_cross N v)))
+    (v_scale (f_mul (f_sub (constant one) c) (v_dot N v)) N).
+Definition fractions (v : vec Q) : vec interval := Vec (fraction (vx v)) (fraction (vy v)) (fraction (vz v)).
+Definition unit_form (axis : vec Q) : vec form :=
+  let v := fractions axis in
+  let k x := constant (mul (div one (norm_of v)) x) in
+  Vec (k (vx v)) (k (vy v)) (k (vz v)).
+
 (** The images of the unit vectors. *)
-Definition rotation (a : angles) (p : nat -> form) : vec (vec form) :=
+Definition columns_of (turn : vec form -> vec form) : vec (vec form) :=
   let i := constant one in
   let o := constant zero in
-  let units := (Vec i o o, Vec o i o, Vec o o i) in
-  let three turn := let '(x, y, z) := units in Vec (turn x) (turn y) (turn z) in
+  Vec (turn (Vec i o o)) (turn (Vec o i o)) (turn (Vec o o i)).
+Definition rotation (a : angles) (p : nat -> form) : vec (vec form) :=
   let v := eval p in
   match a with
   | TiltTorsion phi theta sigma =>
       let f := v phi in let t := v theta in let g := f_sub (v sigma) f in
       let cf := f_cos f in let sf := f_sin f in let ct := f_cos t in let st := f_sin t in
       let cg := f_cos g in let sg := f_sin g in
-      three (fun u => f_rot_z cf sf (f_rot_y ct st (f_rot_z cg sg u)))
+      columns_of (fun u => f_rot_z cf sf (f_rot_y ct st (f_rot_z cg sg u)))
   | RollPitchYaw roll pitch yaw =>
       let f := v yaw in let t := v pitch in let g := v roll in
       let cf := f_cos f in let sf := f_sin f in let ct := f_cos t in let st := f_sin t in
       let cg := f_cos g in let sg := f_sin g in
-      three (fun u => f_rot_z cf sf (f_rot_y ct st (f_rot_x cg sg u)))
+      columns_of (fun u => f_rot_z cf sf (f_rot_y ct st (f_rot_x cg sg u)))
   | Zyz alpha beta gamma =>
       let f := v alpha in let t := v beta in let g := v gamma in
       let cf := f_cos f in let sf := f_sin f in let ct := f_cos t in let st := f_sin t in
       let cg := f_cos g in let sg := f_sin g in
-      three (fun u => f_rot_z cf sf (f_rot_y ct st (f_rot_z cg sg u)))
+      columns_of (fun u => f_rot_z cf sf (f_rot_y ct st (f_rot_z cg sg u)))
+  | About axis angle => columns_of (f_turn_about (unit_form axis) (v angle))
   end.
+Definition is_vector (v : vec Q) : bool := negb (Qeq_bool (vx v) 0 && Qeq_bool (vy v) 0 && Qeq_bool (vz v) 0).
+Definition has_axis (a : angles) : bool := match a with About axis _ => is_vector axis | _ => true end.
 
 Definition turned (R : vec (vec form)) (u : vec form) : vec form :=
   v_add (v_add (v_scale (vx u) (vx R)) (v_scale (vy u) (vy R))) (v_scale (vz u) (vz R)).
@@ -195,30 +210,65 @@ Definition units : six (six Z) :=
   (Six (Six 1 0 0 0 0 0) (Six 0 1 0 0 0 0) (Six 0 0 1 0 0 0)
        (Six 0 0 0 1 0 0) (Six 0 0 0 0 1 0) (Six 0 0 0 0 0 1))%Z.
 
-(** ** The load: of ellipsoids, only those whose matrix is diagonal, with a positive diagonal
+(** ** Ellipsoids
+
+    The form of a matrix, given by rows, as a sum of positive squares (Lemmas.v), if it is one and the matrix symmetric. *)
+
+Definition vanishes (q : Q) : bool := Qeq_bool q 0.
+Fixpoint agree (k l : list Q) : bool :=
+  match k, l with [], [] => true | x :: k, y :: l => Qeq_bool x y && agree k l | _, _ => false end.
+Fixpoint less_times (k : Q) (s r : list Q) : list Q :=
+  match s, r with
+  | s, [] => s
+  | [], x :: r => Qred (- (k * x)) :: less_times k [] r
+  | y :: s, x :: r => Qred (y - k * x) :: less_times k s r
+  end.
+Fixpoint reduced (r : list Q) (k : list Q) (rows : list (list Q)) : list (list Q) :=
+  match k, rows with
+  | x :: k, s :: rows => (if vanishes x then s else less_times x s r) :: reduced r k rows
+  | _, _ => []
+  end.
+Fixpoint squares (n : nat) (rows : list (list Q)) : option (list (Q * list Q)) :=
+  match n, rows with
+  | O, [] => Some []
+  | S n, (a :: r) :: rows =>
+      if Z.ltb 0 (Qnum a) && agree (map (hd 0%Q) rows) r then
+        let k := map (fun x => Qred (x / a)) r in
+        option_map (cons (a, k)) (squares n (reduced r k (map (@tl Q) rows)))
+      else None
+  | _, _ => None
+  end.
+
+Fixpoint less_range (c : interval) (y : list interval) (k : list Q) : list interval :=
+  match y, k with
+  | y, [] => y
+  | [], x :: k => I.neg (mul c (fraction x)) :: less_range c [] k
+  | y1 :: y, x :: k => (if vanishes x then y1 else sub y1 (mul c (fraction x))) :: less_range c y k
+  end.
+Fixpoint spread_range (l : list (Q * list Q)) (y : list interval) : interval :=
+  match l, y with
+  | (a, k) :: l, c :: y => add (div (I.sqr prec c) (fraction a)) (spread_range l (less_range c y k))
+  | _, _ => zero
+  end.
+
+(** ** The load
 
     What an item makes of a row y is a form, of one of its wrenches, and a range of what others add to that. *)
 
-Definition diagonal (shape : six (six Q)) : six Q :=
-  Six (at1 (at1 shape)) (at2 (at2 shape)) (at3 (at3 shape)) (at4 (at4 shape)) (at5 (at5 shape)) (at6 (at6 shape)).
-Definition is_diagonal (shape : six (six Q)) : bool :=
-  every (zip6 (fun row unit => every (zip6 (fun e d =>
-    if Z.eqb d 0 then Qeq_bool e 0 else Z.ltb 0 (Qnum e)) row unit)) shape units).
-Definition in_scope (l : list item) : bool :=
-  forallb (fun i => match i with Ellipsoid _ _ shape => is_diagonal shape | _ => true end) l.
-
 Definition range (f : form) : interval := over (tight f).
 Definition size (v : vec form) : interval := norm_of (Vec (range (vx v)) (range (vy v)) (range (vz v))).
-Definition v_dot u v := f_add (f_add (f_mul (vx u) (vx v)) (f_mul (vy u) (vy v))) (f_mul (vz u) (vz v)).
 
 Definition part : Type := form * interval.
 Definition only (x : interval) : part := (constant zero, x).
 
 Definition along (c : six interval) (w : six Q) : interval := sum (zip6 (fun c q => mul c (fraction q)) c w).
+Definition list_of {A : Type} (l : six A) : list A := [at1 l; at2 l; at3 l; at4 l; at5 l; at6 l].
 Definition ellipsoid_part (c : six interval) (center shift : six Q) (shape : six (six Q)) : part :=
-  (constant (along c center),
-   symmetric (add (I.abs (along c shift))
-     (I.sqrt prec (sum (zip6 (fun c q => div (I.sqr prec c) (fraction q)) c (diagonal shape)))))).
+  match squares 6 (list_of (map6 list_of shape)) with
+  | Some l => (constant (along c center),
+               symmetric (add (I.abs (along c shift)) (I.sqrt prec (spread_range l (list_of c)))))
+  | None => only I.nai
+  end.
 
 (** Of numbers from [lower] to [upper] times what f encloses. *)
 Definition middle (lower upper : Q) : interval := fraction ((lower + upper) * (1 # 2)).
@@ -327,21 +377,28 @@ Definition decide (m : machine) (tension_margin length_margin : Q) (lengths x0 :
 
 Definition number (scale : positive) (z : Z) : interval := fraction (z # Pos.pow 2 scale).
 
-Definition orientation_form (m : machine) (p : nat -> form) : vec (vec form) :=
-  let R := rotation (pose_angles m) p in
+(** Where the platform is meant to be, and whether [turn] is known to be one. *)
+Record pose_form := PoseForm { is_turn : bool; place : vec form; images : vec (vec form) }.
+
+Definition posed (m : machine) (p : nat -> form) : pose_form :=
+  PoseForm (has_axis (pose_angles m))
+    (Vec (eval p (vx (pose_position m))) (eval p (vy (pose_position m))) (eval p (vz (pose_position m))))
+    (rotation (pose_angles m) p).
+
+(** Where it may be. *)
+Definition orientation_form (m : machine) (R : vec (vec form)) : vec (vec form) :=
   let by_angle := v_turned (angle_of m) in
   if is_zero_number (of_orientation (tolerance m)) then R else Vec (by_angle (vx R)) (by_angle (vy R)) (by_angle (vz R)).
-Definition position_form (m : machine) (p : nat -> form) : vec form :=
-  v_within 0 (of_position (tolerance m))
-    (Vec (eval p (vx (pose_position m))) (eval p (vy (pose_position m))) (eval p (vz (pose_position m)))).
+Definition position_form (m : machine) (P : vec form) : vec form := v_within 0 (of_position (tolerance m)) P.
 
-Definition check_pose (m : machine) (tension_margin length_margin : Q) (b : box) (p : nat -> form) : bool :=
-  let R := orientation_form m p in
-  let P := position_form m p in
+Definition check_pose (m : machine) (tension_margin length_margin : Q) (b : box) (p : pose_form) : bool :=
+  let R := orientation_form m (images p) in
+  let P := position_form m (place p) in
   let columns := column_forms R P m in
   let C := map6 (map6 (number (scale b))) (inverse b) in
   let x0 := map6 (number (scale b)) (densities b) in
   let CD := product C columns in
+  is_turn p &&
   decide m tension_margin length_margin (map6 length_range columns) x0 (error_ranges CD)
     (rest_ranges R m C CD x0).
 
@@ -361,18 +418,19 @@ Definition from_to (prec : F.precision) (l r : Q) : interval := I.join (fraction
 
 (** ** Motions: from enclosures of m and of all s *)
 
-Definition motion_form : Type := interval -> interval -> nat -> form.
+Definition parameters_form : Type := interval -> interval -> nat -> form.
+Definition motion_form : Type := interval -> interval -> pose_form.
 
 Definition point (prec : F.precision) (u : waypoint) (i : nat) : interval :=
   let (q, h) := nth i u (0%Q, 0%Z) in add prec (fraction prec q) (mul prec (integer prec h) (I.pi prec)).
 
-Definition line_form (prec : F.precision) (v w : waypoint) : motion_form := fun m S i =>
+Definition line_form (prec : F.precision) (v w : waypoint) : parameters_form := fun m S i =>
   let a := point prec v i in
   let k := sub prec (point prec w i) a in
   Form (add prec a (mul prec m k)) (add prec a (mul prec S k)) k [].
 
 (** By the differences of control points, in powers of s. *)
-Definition spline_form (prec : F.precision) (a b c d : waypoint) : motion_form := fun m S i =>
+Definition spline_form (prec : F.precision) (a b c d : waypoint) : parameters_form := fun m S i =>
   let at_b := point prec b i in
   let e := sub prec at_b (point prec a i) in
   let f := sub prec (point prec c i) at_b in
@@ -384,13 +442,44 @@ Definition spline_form (prec : F.precision) (a b c d : waypoint) : motion_form :
     (times_s (f_add prec (part (add prec e f) 2%Z) (times_s (f_add prec (part (sub prec f e) 2%Z)
       (times_s (part (add prec (sub prec g (mul prec (integer prec 2%Z) f)) e) 6%Z)))))).
 
-Fixpoint motions (prec : F.precision) (l : law) (path : list waypoint) : list motion_form :=
+(** Quaternions of rational numbers. *)
+Definition coordinate_q (w : waypoint) (i : nat) : Q := fst (nth i w (0%Q, 0%Z)).
+Definition vector_q (w : waypoint) : vec Q := Vec (coordinate_q w 3) (coordinate_q w 4) (coordinate_q w 5).
+Definition dot_q (u v : vec Q) : Q := (vx u * vx v + vy u * vy v + vz u * vz v)%Q.
+Definition between_q (v w : waypoint) : vec Q * Q :=
+  let p := vector_q v in let q := vector_q w in
+  let a := coordinate_q v 6 in let b := coordinate_q w 6 in
+  ((Vec (a * vx q - b * vx p - (vy p * vz q - vz p * vy q)) (a * vy q - b * vy p - (vz p * vx q - vx p * vz q))
+        (a * vz q - b * vz p - (vx p * vy q - vy p * vx q)), a * b + dot_q p q)%Q).
+Definition no_half_turns (w : waypoint) : bool := forallb (fun c => Z.eqb (snd c) 0) w.
+
+Definition f_turn_by (prec : F.precision) (w : waypoint) (v : vec form) : vec form :=
+  let u := v_rational prec (vector_q w) in
+  let k q := constant prec (fraction prec q) in
+  let a := coordinate_q w 6 in
+  let square := dot_q (vector_q w) (vector_q w) in
+  v_scale prec (constant prec (div prec (one prec) (fraction prec (square + a * a))))
+    (v_add prec (v_add prec (v_scale prec (k (a * a - square)%Q) v)
+                            (v_scale prec (f_mul prec (k 2%Q) (v_dot prec u v)) u))
+                (v_scale prec (k (2 * a)%Q) (v_cross prec u v))).
+
+Definition geodesic_form (prec : F.precision) (v w : waypoint) : motion_form := fun m S =>
+  let (u, c) := between_q v w in
+  let angle := mul prec (integer prec 2) (I.atan prec (div prec (norm_of prec (fractions prec u)) (fraction prec c))) in
+  let turn x := if is_vector u
+    then f_turn_about prec (unit_form prec u) (f_mul prec (Form m S (one prec) []) (constant prec angle)) x else x in
+  let x := line_form prec v w m S in
+  PoseForm (no_half_turns v && no_half_turns w && negb (Qeq_bool c 0)) (Vec (x 0%nat) (x 1%nat) (x 2%nat))
+    (columns_of prec (fun x => f_turn_by prec v (turn x))).
+
+Fixpoint motions (prec : F.precision) (m : machine) (l : law) (path : list waypoint) : list motion_form :=
   match path with
   | [] => []
   | v :: rest =>
       match l, rest with
-      | Straight, w :: _ => line_form prec v w :: motions prec l rest
-      | Spline, b :: c :: d :: _ => spline_form prec v b c d :: motions prec l rest
+      | Straight, w :: _ => (fun x S => posed prec m (line_form prec v w x S)) :: motions prec m l rest
+      | Spline, b :: c :: d :: _ => (fun x S => posed prec m (spline_form prec v b c d x S)) :: motions prec m l rest
+      | Geodesic, w :: _ => geodesic_form prec v w :: motions prec m l rest
       | _, _ => []
       end
   end.
@@ -419,8 +508,8 @@ Fixpoint check_motions (prec : F.precision) (c : certificate) (l : list motion_f
 
 Definition check (c : certificate) : bool :=
   let prec := F.PtoP (bits c) in
-  let l := motions prec (motion c) (path c) in
-  match l with [] => false | _ => true end && in_scope (load (subject c)) &&
+  let l := motions prec (subject c) (motion c) (path c) in
+  match l with [] => false | _ => true end &&
   below prec (angle_of prec (subject c)) (one prec) && check_motions prec c l (boxes c).
 
 End Checker.

@@ -77,6 +77,9 @@ Proof. exact (I.sin_correct prec i (Xreal x)). Qed.
 Lemma cos_is_in x i : is_in x i -> is_in (cos x) (I.cos prec i).
 Proof. exact (I.cos_correct prec i (Xreal x)). Qed.
 
+Lemma atan_is_in x i : is_in x i -> is_in (atan x) (I.atan prec i).
+Proof. exact (I.atan_correct prec i (Xreal x)). Qed.
+
 Lemma integer_is_in z : is_in (IZR z) (integer prec z).
 Proof. exact (I.fromZ_correct prec z). Qed.
 

@@ -159,45 +159,92 @@ Proof.
   exists x; split; [exact r |]. rewrite moved_times, e, H. ring.
 Qed.
 
-(** ** The range of a linear function over an ellipsoid whose matrix is diagonal: Cauchy and Schwarz.
-    A term is (c, e, z): a coefficient, the matrix's entry, and a coordinate. *)
+(** ** The range of a linear function over an ellipsoid, whose form is a sum of squares: Cauchy and Schwarz
 
-Definition total (f : R * R * R -> R) (l : list (R * R * R)) : R := fold_right (fun a s => f a + s) 0 l.
-Definition linear : list (R * R * R) -> R := total (fun '(c, _, z) => c * z).
-Definition spread : list (R * R * R) -> R := total (fun '(c, e, _) => c * c / e).
-Definition form : list (R * R * R) -> R := total (fun '(_, e, z) => e * (z * z)).
+    Of the coordinates z, z1 first, a square is (a, k): a (z1 + k.z')^2, where z' are those that come after. *)
 
-Definition positive (l : list (R * R * R)) : Prop := List.Forall (fun a => 0 < snd (fst a)) l.
+Fixpoint lin (k z : list R) : R := match k, z with x :: k, y :: z => x * y + lin k z | _, _ => 0 end.
+Fixpoint less (y k : list R) : list R :=
+  match y, k with
+  | y, nil => y
+  | nil, x :: k => - x :: less nil k
+  | y1 :: y, x :: k => y1 - x :: less y k
+  end.
 
-Lemma cauchy_schwarz l : positive l ->
-  0 <= spread l /\ 0 <= form l /\ linear l * linear l <= spread l * form l.
+Fixpoint form (l : list (R * list R)) (z : list R) : R :=
+  match l, z with (a, k) :: l, x :: z => a * ((x + lin k z) * (x + lin k z)) + form l z | _, _ => 0 end.
+Fixpoint spread (l : list (R * list R)) (y : list R) : R :=
+  match l, y with (a, k) :: l, c :: y => c * c / a + spread l (less y (map (Rmult c) k)) | _, _ => 0 end.
+
+Definition positive (l : list (R * list R)) : Prop := List.Forall (fun a => 0 < fst a) l.
+
+Lemma lin_of_nothing z : lin nil z = 0.
+Proof. now destruct z. Qed.
+
+Lemma lin_of_less y k z : lin (less y k) z = lin y z - lin k z.
 Proof.
-  induction 1 as [| [[c e] z] l p _ [a [b h]]]; cbn [fst snd] in *; unfold linear, spread, form, total in *;
-    cbn [fold_right] in *; [lra|].
-  set (S := fold_right (fun a s => (let '(c, _, z) := a in c * z) + s) 0 l) in *.
-  set (A := fold_right (fun a s => (let '(c, e, _) := a in c * c / e) + s) 0 l) in *.
-  set (B := fold_right (fun a s => (let '(_, e, z) := a in e * (z * z)) + s) 0 l) in *.
-  assert (u : 0 <= c * c / e) by (apply Rmult_le_pos; [nra | left; now apply Rinv_0_lt_compat]).
-  assert (v : 0 <= e * (z * z)) by nra.
-  split; [lra|]. split; [lra|].
-  set (X := A * (e * (z * z))). set (Y := B * (c * c / e)).
-  assert (x : 0 <= X) by (apply Rmult_le_pos; lra). assert (y : 0 <= Y) by (apply Rmult_le_pos; lra).
-  assert (xy : X * Y = A * B * ((c * z) * (c * z))) by (unfold X, Y; field; lra).
-  assert (w : S * S * ((c * z) * (c * z)) <= X * Y)
-    by (rewrite xy; apply Rmult_le_compat_r; [nra | exact h]).
-  assert (k : 2 * S * (c * z) <= X + Y).
-  { apply Rnot_lt_le; intro n. assert (0 <= (X - Y) * (X - Y)) by apply Rle_0_sqr.
-    assert ((X + Y) * (X + Y) < (2 * S * (c * z)) * (2 * S * (c * z))) by (apply Rmult_le_0_lt_compat; lra). nra. }
-  replace ((c * c / e + A) * (e * (z * z) + B)) with (c * c * (z * z) + X + Y + A * B)
-    by (unfold X, Y; field; lra).
-  nra.
+  revert k z. induction y as [| y1 y IH]; intros k z.
+  - revert z. induction k as [| x k IHk]; intros z; [cbn [less]; rewrite !lin_of_nothing; ring |].
+    destruct z as [| z1 z]; cbn [less lin]; [ring |]. rewrite IHk, lin_of_nothing. ring.
+  - destruct k as [| x k]; [cbn [less]; rewrite !lin_of_nothing; ring |].
+    destruct z as [| z1 z]; cbn [less lin]; [ring |]. rewrite IH. ring.
 Qed.
 
-Theorem range_of_ellipsoid l : positive l -> form l <= 1 ->
-  Rabs (linear l) <= sqrt (spread l).
+Lemma lin_of_times c k z : lin (map (Rmult c) k) z = c * lin k z.
 Proof.
-  intros p q; destruct (cauchy_schwarz l p) as [a [b h]].
+  revert z. induction k as [| x k IH]; intros z; [cbn [map]; rewrite !lin_of_nothing; ring |].
+  destruct z as [| z1 z]; cbn [map lin]; [ring |]. rewrite IH. ring.
+Qed.
+
+Lemma cauchy_schwarz l : positive l -> forall y z, (List.length z <= List.length l)%nat ->
+  0 <= spread l y /\ 0 <= form l z /\ lin y z * lin y z <= spread l y * form l z.
+Proof.
+  induction 1 as [| [a k] l pos _ IH]; intros y z len.
+  - destruct z; [| cbn in len; lia]. destruct y; cbn; lra.
+  - cbn [fst] in pos. destruct y as [| c y].
+    + destruct z as [| x z]; cbn [spread form lin]; [lra |].
+      destruct (IH nil z ltac:(cbn in len; lia)) as [_ [h _]]. assert (0 <= (x + lin k z) * (x + lin k z)) by apply Rle_0_sqr.
+      assert (0 <= a * ((x + lin k z) * (x + lin k z))) by (apply Rmult_le_pos; lra). lra.
+    + assert (u : 0 <= c * c / a) by (apply Rmult_le_pos; [nra | left; now apply Rinv_0_lt_compat]).
+      destruct z as [| x z].
+      { cbn [spread form lin]. destruct (IH (less y (map (Rmult c) k)) nil ltac:(cbn; lia)) as [h [_ _]]. lra. }
+      cbn [spread form lin]. destruct (IH (less y (map (Rmult c) k)) z ltac:(cbn in len; lia)) as [hA [hB h]].
+      rewrite lin_of_less, lin_of_times in h.
+      set (A := spread l (less y (map (Rmult c) k))) in *. set (B := form l z) in *.
+      set (S := lin y z - c * lin k z) in *. set (w := x + lin k z).
+      assert (v : 0 <= a * (w * w)) by (assert (0 <= w * w) by apply Rle_0_sqr; nra).
+      split; [lra |]. split; [lra |].
+      set (X := A * (a * (w * w))). set (Y := B * (c * c / a)).
+      assert (hx : 0 <= X) by (apply Rmult_le_pos; lra). assert (hy : 0 <= Y) by (apply Rmult_le_pos; lra).
+      assert (xy : X * Y = A * B * ((c * w) * (c * w))) by (unfold X, Y; field; lra).
+      assert (sw : S * S * ((c * w) * (c * w)) <= X * Y)
+        by (rewrite xy; apply Rmult_le_compat_r; [apply Rle_0_sqr | exact h]).
+      assert (m : 2 * S * (c * w) <= X + Y).
+      { apply Rnot_lt_le; intro n. assert (0 <= (X - Y) * (X - Y)) by apply Rle_0_sqr.
+        assert ((X + Y) * (X + Y) < (2 * S * (c * w)) * (2 * S * (c * w))) by (apply Rmult_le_0_lt_compat; lra). nra. }
+      replace (c * x + lin y z) with (c * w + S) by (unfold w, S; ring).
+      replace ((c * c / a + A) * (a * (w * w) + B)) with (c * c * (w * w) + X + Y + A * B)
+        by (unfold X, Y; field; lra).
+      nra.
+Qed.
+
+Theorem range_of_ellipsoid l y z : positive l -> (List.length z <= List.length l)%nat -> form l z <= 1 ->
+  Rabs (lin y z) <= sqrt (spread l y).
+Proof.
+  intros p len q; destruct (cauchy_schwarz l p y z len) as [a [b h]].
   rewrite <- sqrt_Rsqr_abs; apply sqrt_le_1_alt; unfold Rsqr; nra.
+Qed.
+
+(** The form of a matrix, by rows. *)
+Fixpoint quad (rows : list (list R)) (z w : list R) : R :=
+  match rows, z with row :: rows, x :: z => x * lin row w + quad rows z w | _, _ => 0 end.
+
+Lemma quad_peeled rows z x w :
+  quad rows z (x :: w) = x * lin (map (hd 0) rows) z + quad (map (@tl R) rows) z w.
+Proof.
+  revert z. induction rows as [| row rows IH]; intros z; [cbn [quad map]; rewrite lin_of_nothing; ring |].
+  destruct z as [| z1 z]; cbn [quad map lin]; [ring |]. rewrite IH.
+  destruct row as [| b s]; cbn [hd tl lin]; ring.
 Qed.
 
 (** ** Boxes from [begin] to their last end hold every point between. *)

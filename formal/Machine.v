@@ -2,7 +2,7 @@
 (** * From inequalities at a pose to the claim there *)
 
 From Coq Require Import Reals QArith Qreals Lra Lia List FunctionalExtensionality.
-From Taut Require Import Statement Loads.
+From Taut Require Import Statement Loads Turns.
 From Taut Require SixEquations.
 Open Scope R_scope.
 

@@ -5,7 +5,7 @@ From Coq Require Import Reals QArith Qreals ZArith Lra Lia Bool List.
 From Flocq Require Import Zaux.
 From Interval Require Import Float.Specific_sig Interval.Interval Interval.Float_full Real.Xreal.
 From Interval Require Import Float.Basic Float.Sig.
-From Taut Require Import Statement Certificate Lemmas Loads Checker Enclosure Machine.
+From Taut Require Import Statement Certificate Lemmas Loads Turns Checker Enclosure Machine.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -151,41 +151,106 @@ Proof.
   apply mul_is_in; [now apply hc | apply fraction_is_in].
 Qed.
 
-Lemma ellipsoid_is_in b P c cI center shift shape w : (forall k, (k < 6)%nat -> is_in (c k) (nth6 cI k)) ->
-  is_diagonal shape = true -> in_item b P (Ellipsoid center shift shape) w ->
-  is_in (along_six c (map6 Q2R center)) (mid (fst (ellipsoid_part prec cI center shift shape))) /\
-  is_in (along_six c (six_of w) - along_six c (map6 Q2R center)) (snd (ellipsoid_part prec cI center shift shape)).
+Definition real_squares : list (Q * list Q) -> list (R * list R) := map (fun s => (Q2R (fst s), map Q2R (snd s))).
+
+Lemma qred_is q : Q2R (Qred q) = Q2R q.
+Proof. apply Qeq_eqR, Qred_correct. Qed.
+
+Lemma agree_is_equal k l : agree k l = true -> map Q2R k = map Q2R l /\ List.length k = List.length l.
 Proof.
-  intros hc diag [x [hx h]].
-  set (z := fun k => nth6 (six_of w) k - (Q2R (nth6 center k) + x * Q2R (nth6 shift k))).
-  set (e := fun k => Q2R (nth6 (diagonal shape) k)).
-  set (l := [(c 0%nat, e 0%nat, z 0%nat); (c 1%nat, e 1%nat, z 1%nat); (c 2%nat, e 2%nat, z 2%nat);
-             (c 3%nat, e 3%nat, z 3%nat); (c 4%nat, e 4%nat, z 4%nat); (c 5%nat, e 5%nat, z 5%nat)]).
-  assert (hl : positive l /\ Lemmas.form l <= 1).
-  { unfold is_diagonal, every, zip6, units, fold6 in diag. cbn [at1 at2 at3 at4 at5 at6 Z.eqb] in diag.
-    rewrite !andb_true_iff in diag. decompose [and] diag. clear diag.
-    repeat match goal with H : Qeq_bool _ 0 = true |- _ => apply zero_of in H
-      | H : Z.ltb 0 _ = true |- _ => apply above_zero_of in H end.
-    split.
-    - unfold l, positive, e, diagonal. repeat constructor; cbn [fst snd nth6 at1 at2 at3 at4 at5 at6]; assumption.
-    - cbv zeta in h. unfold sum6, zip6, fold6 in h. cbn [at1 at2 at3 at4 at5 at6] in h.
-      repeat match goal with H : Q2R _ = 0 |- _ => rewrite H in h; clear H end.
-      unfold l, Lemmas.form, Lemmas.total, e, z, diagonal. cbn [fold_right nth6 at1 at2 at3 at4 at5 at6].
-      eapply Rle_trans; [| exact h]. apply Req_le. ring. }
-  destruct hl as [hp hf]. assert (a := range_of_ellipsoid l hp hf).
-  split; cbn [ellipsoid_part fst snd mid constant].
-  - now apply along_is_in.
-  - replace (along_six c (six_of w) - along_six c (map6 Q2R center)) with
-      (x * along_six c (map6 Q2R shift) + linear l).
-    + apply (symmetric_is_in (Rabs (along_six c (map6 Q2R shift)) + sqrt (spread l))).
-      * apply add_is_in; [now apply abs_is_in, along_is_in |]. apply sqrt_is_in.
-        replace (spread l) with (total (fun k => c k * c k / e k)).
-        -- apply sum_is_in. intros k lk. rewrite nth6_zip. apply div_is_in; [now apply sqr_is_in, hc | apply fraction_is_in].
-        -- unfold l, spread, Lemmas.total, SixEquations.total. cbn [fold_right]. ring.
-      * apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat; [| exact a].
-        rewrite Rabs_mult. rewrite <- (Rmult_1_l (Rabs (along_six c (map6 Q2R shift)))) at 2.
-        apply Rmult_le_compat_r; [apply Rabs_pos |]. now apply Rabs_le.
-    + unfold along_six, l, linear, Lemmas.total, SixEquations.total, z. cbn [fold_right]. rewrite !nth6_map. ring.
+  revert l. induction k as [| x k IH]; intros [| y l] h; try discriminate h; [split; reflexivity |].
+  cbn [agree] in h. apply andb_true_iff in h. destruct h as [e h]. apply Qeq_bool_eq, Qeq_eqR in e.
+  destruct (IH l h) as [a b]. cbn [map List.length]. split; congruence.
+Qed.
+
+Lemma less_times_is k s r : map Q2R (less_times k s r) = less (map Q2R s) (map (Rmult (Q2R k)) (map Q2R r)).
+Proof.
+  revert s. induction r as [| x r IH]; intros s; [now destruct s |].
+  destruct s as [| y s]; cbn [less_times map less]; rewrite qred_is, ?Q2R_opp, ?Q2R_minus, Q2R_mult, IH; reflexivity.
+Qed.
+
+Lemma quad_of_reduced r k rows z w : List.length rows = List.length k ->
+  quad (map (map Q2R) (reduced r k rows)) z w = quad (map (map Q2R) rows) z w - lin (map Q2R k) z * lin (map Q2R r) w.
+Proof.
+  revert rows z. induction k as [| x k IH]; intros [| s rows] z l; try discriminate l; [destruct z; cbn; ring |].
+  destruct z as [| z1 z]; cbn [reduced map quad lin]; [ring |]. rewrite IH by (injection l; trivial).
+  assert (e : lin (map Q2R (if vanishes x then s else less_times x s r)) w = lin (map Q2R s) w - Q2R x * lin (map Q2R r) w).
+  { destruct (vanishes x) eqn:z0; [apply zero_of in z0; rewrite z0; ring |]. now rewrite less_times_is, lin_of_less, lin_of_times. }
+  rewrite e. ring.
+Qed.
+
+Lemma hd_map rows : map (hd 0) (map (map Q2R) rows) = map Q2R (map (hd 0%Q) rows).
+Proof.
+  rewrite !map_map. apply map_ext. intros [| b s]; cbn; [unfold Q2R; cbn; lra | reflexivity].
+Qed.
+
+Lemma tl_map rows : map (@tl R) (map (map Q2R) rows) = map (map Q2R) (map (@tl Q) rows).
+Proof. rewrite !map_map. apply map_ext. now intros [| b s]. Qed.
+
+Lemma squares_are_the_form n : forall rows l, squares n rows = Some l ->
+  positive (real_squares l) /\ List.length l = n /\
+  forall z, quad (map (map Q2R) rows) z z = Lemmas.form (real_squares l) z.
+Proof.
+  induction n as [| n IH]; intros rows l h.
+  - destruct rows; [| discriminate h]. injection h as <-. split; [constructor | split; [reflexivity | now intros [| x z]]].
+  - destruct rows as [| [| a r] rows]; try discriminate h. cbn [squares] in h.
+    destruct (Z.ltb 0 (Qnum a) && agree (map (hd 0%Q) rows) r) eqn:ok; [| discriminate h].
+    apply andb_true_iff in ok. destruct ok as [pos same]. apply above_zero_of in pos.
+    set (k := map (fun x => Qred (x / a)) r) in h.
+    destruct (squares n (reduced r k (map (@tl Q) rows))) as [l' |] eqn:e; [| discriminate h]. injection h as <-.
+    destruct (IH _ _ e) as [p [len eq]]. split; [now constructor | split; [cbn; now rewrite len |]].
+    destruct (agree_is_equal _ _ same) as [heads many].
+    assert (hk : forall z, Q2R a * lin (map Q2R k) z = lin (map Q2R r) z).
+    { intros z. unfold k. rewrite map_map. rewrite <- lin_of_times, map_map. f_equal. apply map_ext. intros x.
+      rewrite qred_is, Q2R_div; [field; lra |]. intros z0. apply Qeq_eqR in z0. unfold Q2R in z0 at 2. cbn in z0. lra. }
+    intros [| x z]; [reflexivity |]. cbn [map quad lin real_squares fst snd]. rewrite quad_peeled, hd_map, heads, tl_map.
+    cbn [Lemmas.form]. change (map _ l') with (real_squares l'). rewrite <- eq.
+    rewrite quad_of_reduced by (unfold k; rewrite !map_length in *; exact many).
+    rewrite <- (hk z). ring.
+Qed.
+
+Lemma less_range_is_in c i y Y k : is_in c i -> Forall2 is_in y Y ->
+  Forall2 is_in (less y (map (Rmult c) (map Q2R k))) (less_range prec i Y k).
+Proof.
+  intros hc. revert y Y. induction k as [| x k IH]; intros y Y h.
+  - destruct h; constructor; assumption.
+  - destruct h as [| y1 j y Y hy h]; cbn [map less less_range]; constructor; try (apply IH; now try constructor).
+    + apply neg_is_in, mul_is_in; [exact hc | apply fraction_is_in].
+    + destruct (vanishes x) eqn:z; [apply zero_of in z; now rewrite z, Rmult_0_r, Rminus_0_r |].
+      apply sub_is_in; [exact hy |]. apply mul_is_in; [exact hc | apply fraction_is_in].
+Qed.
+
+Lemma spread_is_in l : forall y Y, Forall2 is_in y Y -> is_in (spread (real_squares l) y) (spread_range prec l Y).
+Proof.
+  induction l as [| [a k] l IH]; intros y Y h; [apply (integer_is_in prec 0) |].
+  destruct h as [| c i y Y hc h]; [apply (integer_is_in prec 0) |]. cbn [real_squares map spread spread_range fst snd].
+  apply add_is_in; [apply div_is_in; [now apply sqr_is_in | apply fraction_is_in] |]. apply IH. now apply less_range_is_in.
+Qed.
+
+Lemma ellipsoid_is_in b P c cI center shift shape w l : (forall k, (k < 6)%nat -> is_in (c k) (nth6 cI k)) ->
+  squares 6 (list_of (map6 list_of shape)) = Some l -> in_item b P (Ellipsoid center shift shape) w ->
+  is_in (along_six c (six_of w) - along_six c (map6 Q2R center))
+    (symmetric (add prec (I.abs (along prec cI shift)) (I.sqrt prec (spread_range prec l (list_of cI))))).
+Proof.
+  intros hc hl [x [hx h]]. cbv zeta in h.
+  set (z := zip6 Rminus (six_of w) (zip6 (fun c d : Q => c + x * d) center shift)) in h.
+  destruct (squares_are_the_form _ _ _ hl) as [pos [len eq]].
+  set (y := [c 0%nat; c 1%nat; c 2%nat; c 3%nat; c 4%nat; c 5%nat]).
+  assert (below : Lemmas.form (real_squares l) (list_of z) <= 1).
+  { rewrite <- eq. eapply Rle_trans; [| exact h]. apply Req_le. clear.
+    unfold sum6, fold6, zip6, list_of, map6. cbn [at1 at2 at3 at4 at5 at6 map quad lin]. ring. }
+  assert (a := range_of_ellipsoid (real_squares l) y (list_of z) pos
+    ltac:(unfold real_squares; rewrite map_length, len; apply le_n) below).
+  replace (along_six c (six_of w) - along_six c (map6 Q2R center)) with
+    (x * along_six c (map6 Q2R shift) + lin y (list_of z)).
+  - apply (symmetric_is_in (Rabs (along_six c (map6 Q2R shift)) + sqrt (spread (real_squares l) y))).
+    + apply add_is_in; [now apply abs_is_in, along_is_in |]. apply sqrt_is_in, spread_is_in. unfold y, list_of.
+      repeat constructor; first [apply (hc 0%nat); lia | apply (hc 1%nat); lia | apply (hc 2%nat); lia |
+        apply (hc 3%nat); lia | apply (hc 4%nat); lia | apply (hc 5%nat); lia].
+    + apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat; [| exact a].
+      rewrite Rabs_mult. rewrite <- (Rmult_1_l (Rabs (along_six c (map6 Q2R shift)))) at 2.
+      apply Rmult_le_compat_r; [apply Rabs_pos |]. now apply Rabs_le.
+  - unfold along_six, y, list_of, z, SixEquations.total, zip6, map6. cbn [nth6 at1 at2 at3 at4 at5 at6 lin]. ring.
 Qed.
 
 (** ** Poses *)
@@ -352,24 +417,9 @@ Proof.
   split; [| split]; cbn; by_parts.
 Qed.
 
-(** What [pose_at] turns by. *)
-Definition turn_of (a : angles) (v : expr -> R) (u : vec R) : vec R :=
-  match a with
-  | TiltTorsion phi theta sigma => rot_z (v phi) (rot_y (v theta) (rot_z (v sigma - v phi) u))
-  | RollPitchYaw roll pitch yaw => rot_z (v yaw) (rot_y (v pitch) (rot_x (v roll) u))
-  | Zyz alpha beta gamma => rot_z (v alpha) (rot_y (v beta) (rot_z (v gamma) u))
-  end.
-
-Lemma turn_is_linear a v u : turn_of a v u = combination u (turn_of a v unit_x) (turn_of a v unit_y) (turn_of a v unit_z).
-Proof.
-  destruct u as [x y z], a; cbn [turn_of];
-    unfold combination, rot_z, rot_y, rot_x, plus, times, unit_x, unit_y, unit_z; cbn [vx vy vz]; f_equal; ring.
-Qed.
-
-Variables (p : nat -> form) (v v' : nat -> R).
-Hypothesis p_encloses : forall i, enc (p i) (v i) (v' i).
-
-Let value_encloses e : enc (eval prec p e) (value v e) (value v' e) := eval_encloses prec t p v v' p_encloses e.
+Lemma v_dot_encloses V W u u' w w' : v_encloses V u u' -> v_encloses W w w' ->
+  enc (v_dot prec V W) (dot u w) (dot u' w').
+Proof. intros [a [b c]] [d [e f]]. unfold v_dot, dot. by_parts. Qed.
 
 Lemma one_encloses : enc (constant prec (one prec)) 1 1.
 Proof. apply constant_encloses, (integer_is_in prec 1). Qed.
@@ -377,19 +427,50 @@ Proof. apply constant_encloses, (integer_is_in prec 1). Qed.
 Lemma zero_encloses : enc (constant prec (zero prec)) 0 0.
 Proof. apply constant_encloses, (integer_is_in prec 0). Qed.
 
-Lemma rotation_encloses a :
-  v_encloses (vx (rotation prec a p)) (turn_of a (value v) unit_x) (turn_of a (value v') unit_x) /\
-  v_encloses (vy (rotation prec a p)) (turn_of a (value v) unit_y) (turn_of a (value v') unit_y) /\
-  v_encloses (vz (rotation prec a p)) (turn_of a (value v) unit_z) (turn_of a (value v') unit_z).
+Lemma turn_about_encloses N n F q q' V u u' : v_encloses N n n -> enc F q q' -> v_encloses V u u' ->
+  v_encloses (f_turn_about prec N F V) (turn_about n q u) (turn_about n q' u').
 Proof.
-  assert (one_enc := one_encloses). assert (zero_enc := zero_encloses).
-  destruct a; cbn [rotation turn_of vx vy vz]; (split; [| split]);
-    repeat first [apply value_encloses | apply sub_encloses | apply rot_z_encloses | apply rot_y_encloses |
-      apply rot_x_encloses | (split; [| split]; assumption)].
+  intros hn h hv. assert (hc := cos_encloses prec t _ _ _ h). assert (hs := sin_encloses prec t _ _ _ h).
+  assert (one_enc := one_encloses). unfold f_turn_about, turn_about. cbv zeta.
+  repeat first [assumption | apply v_add_encloses | apply v_scale_encloses | apply v_cross_encloses | apply v_dot_encloses |
+    apply mul_encloses | apply sub_encloses].
 Qed.
 
-(** A machine that deviates, and where its platform is while it is meant to be at [pose_at m v']; and the machine as it is
-    stated, at [pose_at m v]. *)
+Lemma fractions_are_in u : v_is_in (real_vec u) (fractions prec u).
+Proof. exact (conj (fraction_is_in prec _) (conj (fraction_is_in prec _) (fraction_is_in prec _))). Qed.
+
+Lemma unit_encloses u : v_encloses (unit_form prec u) (unit_along (real_vec u)) (unit_along (real_vec u)).
+Proof.
+  assert (k : is_in (/ norm (real_vec u)) (div prec (one prec) (norm_of prec (fractions prec u)))).
+  { rewrite <- (Rmult_1_l (/ _)). apply div_is_in; [apply (integer_is_in prec 1) | apply norm_of_is_in, fractions_are_in]. }
+  split; [| split]; cbn; apply constant_encloses, mul_is_in; first [exact k | apply fraction_is_in].
+Qed.
+
+(** A pose whose [turn] is one: it is linear and keeps lengths and angles. *)
+Definition is_rigid (P : pose) : Prop :=
+  (forall u, turn P u = combination u (turn P unit_x) (turn P unit_y) (turn P unit_z)) /\
+  (forall u w, dot (turn P u) (turn P w) = dot u w).
+
+Definition images_enclose (V : vec (vec form)) (f f' : vec R -> vec R) : Prop :=
+  v_encloses (vx V) (f unit_x) (f' unit_x) /\ v_encloses (vy V) (f unit_y) (f' unit_y) /\
+  v_encloses (vz V) (f unit_z) (f' unit_z).
+
+Definition pose_encloses (f : pose_form) (P P' : pose) : Prop :=
+  v_encloses (place f) (position P) (position P') /\ images_enclose (images f) (turn P) (turn P').
+
+Lemma columns_of_encloses F f f' : (forall V u, v_encloses V u u -> v_encloses (F V) (f u) (f' u)) ->
+  images_enclose (columns_of prec F) f f'.
+Proof.
+  assert (one_enc := one_encloses). assert (zero_enc := zero_encloses).
+  intros h. split; [| split]; apply h; (split; [| split]); assumption.
+Qed.
+
+Section Pose.
+
+(** A machine that deviates, and where its platform is while it is meant to be at [to_s]; and the machine as it is stated,
+    at [at_m]. *)
+Variables (at_m to_s : pose) (p : pose_form).
+Hypotheses (m_is_rigid : is_rigid at_m) (s_is_rigid : is_rigid to_s) (p_encloses : pose_encloses p at_m to_s).
 Variables (m : machine) (B : built) (off axis : vec R) (angle : R).
 Hypotheses (axis_is_unit : norm axis = 1)
   (angle_is_small : Rabs angle <= Rabs (value (fun _ => 0) (of_orientation (tolerance m))))
@@ -402,35 +483,31 @@ Hypotheses (ball_of_position : of_ball t 0 = off) (ball_of_turn : of_ball t 1 = 
     of_ball t (4 + 2 * i) = minus (snd (nth6 (anchors B) i)) (real_vec (platform (nth6 (cables m) i)))).
 Hypotheses (off_is_small : norm off <= of_position (tolerance m)) (B_is_built : is_built m B).
 
-Let turn_by (u : vec R) := turn_about axis angle (turn_of (pose_angles m) (value v') u).
+Let turned_off (u : vec R) := turn_about axis angle (turn to_s u).
 Let A := itself m.
-Let at_m := pose_at m v.
-Let at_s := Pose (plus (position (pose_at m v')) off) turn_by.
-Let R_form := orientation_form prec m p.
-Let P_form := position_form prec m p.
+Let at_s := Pose (plus (position to_s) off) turned_off.
+Let R_form := orientation_form prec m (images p).
+Let P_form := position_form prec m (place p).
 
-Lemma turn_by_is_linear u : turn_by u = combination u (turn_by unit_x) (turn_by unit_y) (turn_by unit_z).
-Proof. unfold turn_by. rewrite (turn_is_linear (pose_angles m) (value v') u) at 1. apply turn_about_is_linear. Qed.
+Lemma turned_off_is_linear u : turned_off u = combination u (turned_off unit_x) (turned_off unit_y) (turned_off unit_z).
+Proof. unfold turned_off. rewrite (proj1 s_is_rigid u). apply turn_about_is_linear. Qed.
 
 Lemma angle_is_in : is_in (Rabs (value (fun _ => 0) (of_orientation (tolerance m)))) (angle_of prec m).
 Proof.
   apply abs_is_in, (eval_encloses prec t _ (fun _ => 0) (fun _ => 0)). intros _. exact zero_encloses.
 Qed.
 
-Lemma orientation_encloses :
-  v_encloses (vx R_form) (turn_of (pose_angles m) (value v) unit_x) (turn_by unit_x) /\
-  v_encloses (vy R_form) (turn_of (pose_angles m) (value v) unit_y) (turn_by unit_y) /\
-  v_encloses (vz R_form) (turn_of (pose_angles m) (value v) unit_z) (turn_by unit_z).
+Lemma orientation_encloses : images_enclose R_form (turn at_m) turned_off.
 Proof.
-  destruct (rotation_encloses (pose_angles m)) as [x [y z]]. unfold R_form, orientation_form.
+  destruct p_encloses as [_ [x [y z]]]. unfold R_form, orientation_form.
   destruct (is_zero_number (of_orientation (tolerance m))) eqn:still.
   - assert (zero : angle = 0).
     { destruct (of_orientation (tolerance m)) as [q | | | | | | | | | |]; try discriminate still.
       cbn in still, angle_is_small. apply zero_of in still. rewrite still, Rabs_R0 in angle_is_small.
       assert (h := Rabs_pos angle). destruct (Req_dec angle 0) as [e | n]; [exact e |]. apply Rabs_pos_lt in n. lra. }
-    assert (same : forall u, turn_by u = turn_of (pose_angles m) (value v') u).
-    { intros u. unfold turn_by. rewrite zero. apply turn_about_by_nothing. }
-    rewrite !same. split; [| split]; assumption.
+    assert (same : forall u, turned_off u = turn to_s u).
+    { intros u. unfold turned_off. rewrite zero. apply turn_about_by_nothing. }
+    unfold images_enclose. rewrite !same. split; [| split]; assumption.
   - assert (h := angle_is_in). split; [| split]; (eapply v_turned_encloses; eassumption).
 Qed.
 
@@ -438,16 +515,15 @@ Lemma turned_encloses U u u' : v_encloses U u u' ->
   v_encloses (turned prec R_form U) (turn at_m u) (turn at_s u').
 Proof.
   intros h. assert (h' := h). destruct h' as [hx [hy hz]]. destruct orientation_encloses as [x [y z]].
-  change (turn at_m u) with (turn_of (pose_angles m) (value v) u). change (turn at_s u') with (turn_by u').
-  rewrite (turn_is_linear _ (value v) u), (turn_by_is_linear u'). unfold turned, combination.
+  change (turn at_s u') with (turned_off u').
+  rewrite (proj1 m_is_rigid u), (turned_off_is_linear u'). unfold turned, combination.
   repeat first [apply v_add_encloses | apply v_scale_encloses; assumption].
 Qed.
 
 Lemma position_encloses : v_encloses P_form (position at_m) (position at_s).
 Proof.
   unfold at_s. cbn [position]. rewrite <- ball_of_position.
-  apply v_within_encloses; [unfold balls; lia | rewrite ball_of_position; exact off_is_small |].
-  split; [| split]; apply value_encloses.
+  apply v_within_encloses; [unfold balls; lia | rewrite ball_of_position; exact off_is_small | apply p_encloses].
 Qed.
 
 (** A point that is near to a stated one. *)
@@ -477,10 +553,6 @@ Proof.
   exact (conj (range_is_in _ _ _ a) (conj (range_is_in _ _ _ b) (range_is_in _ _ _ c))).
 Qed.
 
-Lemma v_dot_encloses V W u u' w w' : v_encloses V u u' -> v_encloses W w w' ->
-  enc (v_dot prec V W) (dot u w) (dot u' w').
-Proof. intros [a [b c]] [d [e f]]. unfold v_dot, dot. by_parts. Qed.
-
 Lemma arm_encloses U u u' : v_encloses U u u' ->
   v_encloses (arm_form prec reach R_form m U) (arm A at_m u) (arm B at_s u').
 Proof.
@@ -503,40 +575,22 @@ Proof.
   split; [| split]; (apply v_dot_encloses; [assumption | exact e]).
 Qed.
 
-Lemma turn_keeps_dot a f u w : dot (turn_of a f u) (turn_of a f w) = dot u w.
-Proof.
-  assert (unit : forall q, cos q * cos q = 1 - sin q * sin q) by (intros q; assert (h := sin2_cos2 q); unfold Rsqr in h; lra).
-  assert (X : forall q v1 v2, dot (rot_x q v1) (rot_x q v2) = dot v1 v2).
-  { intros q [x y z] [x' y' z']. unfold dot, rot_x. cbn [vx vy vz]. assert (e := unit q).
-    replace (x * x' + _ * _ + _ * _) with
-      (x * x' + (cos q * cos q) * (y * y' + z * z') + (sin q * sin q) * (y * y' + z * z')) by ring. rewrite e. ring. }
-  assert (Y : forall q v1 v2, dot (rot_y q v1) (rot_y q v2) = dot v1 v2).
-  { intros q [x y z] [x' y' z']. unfold dot, rot_y. cbn [vx vy vz]. assert (e := unit q).
-    replace (_ + y * y' + _) with
-      (y * y' + (cos q * cos q) * (x * x' + z * z') + (sin q * sin q) * (x * x' + z * z')) by ring. rewrite e. ring. }
-  assert (Z : forall q v1 v2, dot (rot_z q v1) (rot_z q v2) = dot v1 v2).
-  { intros q [x y z] [x' y' z']. unfold dot, rot_z. cbn [vx vy vz]. assert (e := unit q).
-    replace (_ + z * z') with
-      (z * z' + (cos q * cos q) * (x * x' + y * y') + (sin q * sin q) * (x * x' + y * y')) by ring. rewrite e. ring. }
-  destruct a; cbn [turn_of]; repeat first [rewrite X | rewrite Y | rewrite Z]; reflexivity.
-Qed.
-
 Lemma turn_is_sum u w : turn at_s (plus u w) = plus (turn at_s u) (turn at_s w).
 Proof.
-  change (turn at_s) with turn_by.
-  rewrite (turn_by_is_linear (plus u w)), (turn_by_is_linear u), (turn_by_is_linear w). apply combination_of_plus.
+  change (turn at_s) with turned_off.
+  rewrite (turned_off_is_linear (plus u w)), (turned_off_is_linear u), (turned_off_is_linear w). apply combination_of_plus.
 Qed.
 
 Lemma turn_keeps_norm u : norm (turn at_s u) = norm u.
 Proof.
-  change (turn at_s) with turn_by. unfold norm, turn_by. f_equal.
-  rewrite turn_about_keeps_dot by exact axis_is_unit. apply turn_keeps_dot.
+  change (turn at_s) with turned_off. unfold norm, turned_off. f_equal.
+  rewrite turn_about_keeps_dot by exact axis_is_unit. apply s_is_rigid.
 Qed.
 
 Lemma dot_in_axes a h u : dot h (in_axes a at_s u) = dot (seen_from a (turn at_s) h) u.
 Proof.
   destruct a; cbn [in_axes seen_from]; [reflexivity |].
-  change (turn at_s) with turn_by. rewrite (turn_by_is_linear u). apply dot_of_combination.
+  change (turn at_s) with turned_off. rewrite (turned_off_is_linear u). apply dot_of_combination.
 Qed.
 
 (** What a part is of: a form of what one wrench makes at m and at s, and what others add to that at s. *)
@@ -675,16 +729,16 @@ Proof.
       apply (hc 4%nat); lia | apply (hc 5%nat); lia].
 Qed.
 
-Lemma item_holds i w : in_scope [i] = true -> in_item B at_s i w ->
+Lemma item_holds i w : in_item B at_s i w ->
   part_holds (item_part prec reach R_form m cI i) (along_row (row_of c) w).
 Proof.
-  intros scope h. destruct row_encloses as [hf hm].
+  intros h. destruct row_encloses as [hf hm].
   assert (cov := fun point => covector_encloses _ _ _ _ _ hf hm (arm_of_rational_encloses point)).
   destruct i as [center shift shape | l u g point r | set a point | set a | cases a point].
-  - cbn [item_part]. rewrite along_row_of. unfold in_scope in scope. cbn [forallb] in scope.
-    rewrite andb_true_r in scope. destruct (ellipsoid_is_in B at_s c cI center shift shape w hc scope h) as [x y].
+  - cbn [item_part]. rewrite along_row_of. unfold ellipsoid_part.
+    destruct (squares 6 (list_of (map6 list_of shape))) as [l |] eqn:e; [| apply only_holds, nai_has_all].
     exists (along_six c (map6 Q2R center)), (along_six c (map6 Q2R center)).
-    split; [now apply constant_encloses | exact y].
+    split; [now apply constant_encloses, along_is_in | exact (ellipsoid_is_in B at_s c cI center shift shape w l hc e h)].
   - destruct h as [mass [center [hmass [near ->]]]]. apply weight_holds; assumption.
   - destruct h as [u [hu ->]]. rewrite along_force, dot_in_axes. eapply vectors_hold; [| exact hu].
     apply seen_encloses, cov.
@@ -694,17 +748,15 @@ Proof.
     eapply (cases_hold _ _ _ _ _ _ cases u); [apply seen_encloses, cov | apply seen_encloses, hm | exact hu].
 Qed.
 
-Lemma load_holds l : in_scope l = true -> forall w, in_items B at_s l w ->
+Lemma load_holds l : forall w, in_items B at_s l w ->
   part_holds (load_part prec reach R_form m cI l) (along_row (row_of c) w).
 Proof.
-  induction l as [| i l IH]; intros scope w h.
+  induction l as [| i l IH]; intros w h.
   - cbn [in_items] in h. subst w. change (part_holds (only prec (zero prec)) (along_row (row_of c) (pure_moment (Vec 0 0 0)))).
     apply only_holds. replace (along_row _ _) with 0; [apply (integer_is_in prec 0) |].
     rewrite along_moment. unfold dot. cbn [vx vy vz]. ring.
-  - destruct h as [a [b [-> [ha hb]]]]. cbn [in_scope forallb] in scope. rewrite andb_true_iff in scope.
-    destruct scope as [s1 s2].
-    assert (one_item : in_scope [i] = true) by (unfold in_scope; cbn [forallb]; now rewrite andb_true_r).
-    destruct (item_holds i a one_item ha) as [q [q' [e d]]]. destruct (IH s2 b hb) as [p1 [p1' [e1 d1]]].
+  - destruct h as [a [b [-> [ha hb]]]].
+    destruct (item_holds i a ha) as [q [q' [e d]]]. destruct (IH b hb) as [p1 [p1' [e1 d1]]].
     exists (q + p1), (q' + p1'). rewrite along_plus.
     change (load_part prec reach R_form m cI (i :: l)) with
       (let p := item_part prec reach R_form m cI i in
@@ -753,6 +805,10 @@ Proof.
     apply (h 3%nat); lia | apply (h 4%nat); lia | apply (h 5%nat); lia].
 Qed.
 
+Lemma check_pose_turns tension_margin length_margin x f :
+  check_pose prec reach m tension_margin length_margin x f = true -> is_turn f = true.
+Proof. unfold check_pose. cbv zeta. rewrite andb_true_iff. tauto. Qed.
+
 Lemma number_is_in scale z : is_in (Q2R (z # Pos.pow 2 scale)) (number prec scale z).
 Proof. apply fraction_is_in. Qed.
 
@@ -768,11 +824,11 @@ Strategy 1000 [decide product error_ranges rest_ranges orientation_form position
 Strategy 1000 [densities_matrix density_column pose_at SixEquations.total SixEquations.error6 along_six rest load_part].
 Strategy expand [check_pose].
 
-Theorem pose_is_sound tension_margin length_margin x : in_scope (load m) = true ->
+Theorem pose_is_sound tension_margin length_margin x :
   check_pose prec reach m tension_margin length_margin x p = true ->
   feasible_at m B tension_margin length_margin at_s.
 Proof.
-  intros scope h. unfold check_pose in h. cbv zeta in h.
+  intros h. unfold check_pose in h. cbv zeta in h. rewrite andb_true_iff in h. destruct h as [_ h].
   fold R_form P_form in h.
   set (columns := column_forms prec reach R_form P_form m) in h.
   set (CI := map6 (map6 (number prec (scale x))) (inverse x)) in h.
@@ -808,7 +864,7 @@ Proof.
     replace (rest B at_s C x0 w i) with
       (along_six (C i) (six_of w) - total (fun j => total (fun k => C i k * D k j) * x0 j)).
     + rewrite <- along_row_of.
-      destruct (load_holds (C i) (nth6 CI i) (fun k _ => hC i k) (load m) scope w hw) as [q [q' [e d]]].
+      destruct (load_holds (C i) (nth6 CI i) (fun k _ => hC i k) (load m) w hw) as [q [q' [e d]]].
       set (S := total (fun j => total (fun k => C i k * D k j) * x0 j)).
       replace (along_row (row_of (C i)) w - S) with ((q' - S) + (along_row (row_of (C i)) w - q')) by ring.
       apply add_is_in; [| exact d].
@@ -818,7 +874,59 @@ Proof.
     + exact (rest_splits (C i) (nth6 (six_of w)) x0 D).
 Qed.
 
+End Pose.
+
+(** ** Poses of parameters, and geodesics *)
+
+Lemma vector_is_not_0 u : is_vector u = true -> real_vec u <> Vec 0 0 0.
+Proof.
+  unfold is_vector, real_vec. rewrite negb_true_iff. intros h e. injection e as x y z.
+  assert (is0 : forall q, Q2R q = 0 -> Qeq_bool q 0 = true).
+  { intros q hq. apply Qeq_bool_iff, eqR_Qeq. rewrite hq. unfold Q2R. cbn. lra. }
+  rewrite (is0 _ x), (is0 _ y), (is0 _ z) in h. discriminate h.
+Qed.
+
+Lemma angles_are_rigid m v : has_axis (pose_angles m) = true -> is_rigid (pose_at m v).
+Proof.
+  intros axis. split; [intros [x y z]; unfold pose_at; cbn [turn]; destruct (pose_angles m);
+    try (unfold combination, rot_z, rot_y, rot_x, plus, times, unit_x, unit_y, unit_z; cbn [vx vy vz]; f_equal; ring);
+    apply turn_about_axis_is_linear |].
+  assert (unit : forall q, cos q * cos q = 1 - sin q * sin q) by (intros q; assert (h := sin2_cos2 q); unfold Rsqr in h; lra).
+  assert (X : forall q v1 v2, dot (rot_x q v1) (rot_x q v2) = dot v1 v2).
+  { intros q [x y z] [x' y' z']. unfold dot, rot_x. cbn [vx vy vz]. assert (e := unit q).
+    replace (x * x' + _ * _ + _ * _) with
+      (x * x' + (cos q * cos q) * (y * y' + z * z') + (sin q * sin q) * (y * y' + z * z')) by ring. rewrite e. ring. }
+  assert (Y : forall q v1 v2, dot (rot_y q v1) (rot_y q v2) = dot v1 v2).
+  { intros q [x y z] [x' y' z']. unfold dot, rot_y. cbn [vx vy vz]. assert (e := unit q).
+    replace (_ + y * y' + _) with
+      (y * y' + (cos q * cos q) * (x * x' + z * z') + (sin q * sin q) * (x * x' + z * z')) by ring. rewrite e. ring. }
+  assert (Z : forall q v1 v2, dot (rot_z q v1) (rot_z q v2) = dot v1 v2).
+  { intros q [x y z] [x' y' z']. unfold dot, rot_z. cbn [vx vy vz]. assert (e := unit q).
+    replace (_ + z * z') with
+      (z * z' + (cos q * cos q) * (x * x' + y * y') + (sin q * sin q) * (x * x' + y * y')) by ring. rewrite e. ring. }
+  intros u w. unfold pose_at. cbn [turn]. destruct (pose_angles m); try (apply turn_about_keeps_dot, unit_along_is_unit;
+    now apply vector_is_not_0); repeat first [rewrite X | rewrite Y | rewrite Z]; reflexivity.
+Qed.
+
+
+Section Parameters.
+
+Variables (p : nat -> form) (v v' : nat -> R).
+Hypothesis p_encloses : forall i, enc (p i) (v i) (v' i).
+
+Let value_encloses e : enc (eval prec p e) (value v e) (value v' e) := eval_encloses prec t p v v' p_encloses e.
+
+Lemma posed_encloses m : pose_encloses (posed prec m p) (pose_at m v) (pose_at m v').
+Proof.
+  split; [split; [| split]; apply value_encloses |]. unfold pose_at. cbn [images posed turn].
+  destruct (pose_angles m); cbn [rotation]; apply columns_of_encloses; intros V u h;
+    repeat first [exact h | apply value_encloses | apply sub_encloses | apply rot_z_encloses | apply rot_y_encloses |
+      apply rot_x_encloses | apply turn_about_encloses | apply unit_encloses].
+Qed.
+
+End Parameters.
 End Offset.
+
 (** ** A path *)
 
 Lemma point_is_in u i : is_in (coordinate u i) (point prec u i).
@@ -827,12 +935,30 @@ Proof.
   apply add_is_in; [apply fraction_is_in |]. apply mul_is_in; [apply integer_is_in | apply I.pi_correct].
 Qed.
 
-(** A motion, and what the checker has of it. *)
-Definition follows (f : motion_form) (q : R -> nat -> R) : Prop :=
+(** Parameters, or poses, that move, and what the checker has of them. *)
+Definition parameters_follow (f : parameters_form) (q : R -> nat -> R) : Prop :=
   forall middle s m S t, is_in middle m -> is_in middle S -> is_in s S -> of_place t = s - middle ->
   forall i, encloses t (f m S i) (q middle i) (q s i).
+Definition follows (f : motion_form) (q : R -> pose) : Prop :=
+  forall middle s m S t, is_in middle m -> is_in middle S -> is_in s S -> of_place t = s - middle ->
+  is_turn (f m S) = true ->
+  is_rigid (q middle) /\ is_rigid (q s) /\ pose_encloses t (f m S) (q middle) (q s).
 
-Lemma line_follows v w : follows (line_form prec v w) (on_line v w).
+Lemma posed_follows m f q : parameters_follow f q -> follows (fun x S => posed prec m (f x S)) (fun s => pose_at m (q s)).
+Proof.
+  intros h middle s x S t hm hm' hs ht turns. cbn [posed is_turn] in turns.
+  split; [now apply angles_are_rigid | split; [now apply angles_are_rigid |]]. now apply posed_encloses, h.
+Qed.
+
+Lemma place_encloses middle s m S t : is_in middle m -> is_in middle S -> is_in s S -> of_place t = s - middle ->
+  encloses t (Form m S (one prec) []) middle s.
+Proof.
+  intros hm hm' hs ht. split; [exact hm | split; [exact hm' | split; [exact hs |]]]. cbn [slope].
+  exists (k_place 1). split; [exact (conj (integer_is_in prec 1) no_blocks) |].
+  unfold sloped. rewrite moved_place, ht. ring.
+Qed.
+
+Lemma line_follows v w : parameters_follow (line_form prec v w) (on_line v w).
 Proof.
   intros middle s m S t hm hm' hs ht i. unfold on_line, line_form. cbv zeta.
   assert (a := point_is_in v i). assert (k := sub_is_in prec _ _ _ _ (point_is_in w i) a).
@@ -844,7 +970,7 @@ Proof.
     unfold sloped. rewrite moved_place, ht. ring.
 Qed.
 
-Lemma spline_follows a b c d : follows (spline_form prec a b c d) (on_spline a b c d).
+Lemma spline_follows a b c d : parameters_follow (spline_form prec a b c d) (on_spline a b c d).
 Proof.
   intros middle s m S t hm hm' hs ht i.
   set (A := coordinate a i). set (B := coordinate b i). set (C := coordinate c i). set (D := coordinate d i).
@@ -855,26 +981,100 @@ Proof.
   assert (hA := point_is_in a i). assert (hB := point_is_in b i). assert (hC := point_is_in c i).
   assert (hD := point_is_in d i). fold A in hA. fold B in hB. fold C in hC. fold D in hD.
   assert (two := integer_is_in prec 2). assert (six := integer_is_in prec 6).
-  assert (place : encloses t (Form m S (one prec) []) middle s).
-  { split; [exact hm | split; [exact hm' | split; [exact hs |]]]. cbn [slope].
-    exists (k_place 1). split; [exact (conj (integer_is_in prec 1) no_blocks) |].
-    unfold sloped. rewrite moved_place, ht. ring. }
-  repeat first [apply add_encloses | (apply mul_encloses; [exact place |])];
+  assert (here := place_encloses _ _ _ _ t hm hm' hs ht).
+  repeat first [apply add_encloses | (apply mul_encloses; [exact here |])];
     apply constant_encloses; repeat first [assumption | apply add_is_in | apply sub_is_in | apply mul_is_in | apply div_is_in].
 Qed.
 
-Lemma motions_follow l path : Forall2 follows (motions prec l path) (segments l path).
+Lemma without_half_turns w i : no_half_turns w = true -> coordinate w i = Q2R (coordinate_q w i).
+Proof.
+  unfold no_half_turns, coordinate, coordinate_q. intros h. rewrite forallb_forall in h.
+  assert (z : snd (nth i w (0%Q, 0%Z)) = 0%Z).
+  { destruct (nth_in_or_default i w (0%Q, 0%Z)) as [l | e]; [| now rewrite e]. apply h, Z.eqb_eq in l. now symmetry. }
+  destruct (nth i w (0%Q, 0%Z)) as [q z']. cbn [snd fst] in *. rewrite z. ring.
+Qed.
+
+Lemma quaternion_is_rational w : no_half_turns w = true ->
+  quaternion_of w = Quaternion (real_vec (vector_q w)) (Q2R (coordinate_q w 6)).
+Proof. intros h. unfold quaternion_of. now rewrite !(without_half_turns w) by exact h. Qed.
+
+Lemma between_is_rational v w : no_half_turns v = true -> no_half_turns w = true ->
+  between (quaternion_of v) (quaternion_of w) = Quaternion (real_vec (fst (between_q v w))) (Q2R (snd (between_q v w))).
+Proof.
+  intros a b. rewrite !quaternion_is_rational by assumption.
+  unfold between, between_q, dot_q, real_vec, minus, times, cross, dot. cbn [vector_part scalar_part fst snd vx vy vz].
+  f_equal; [f_equal |]; repeat first [rewrite Q2R_plus | rewrite Q2R_minus | rewrite Q2R_mult]; reflexivity.
+Qed.
+
+Lemma turn_by_encloses t w V u u' : no_half_turns w = true -> v_encloses t V u u' ->
+  v_encloses t (f_turn_by prec w V) (turn_by (quaternion_of w) u) (turn_by (quaternion_of w) u').
+Proof.
+  intros h e. rewrite quaternion_is_rational by exact h. unfold f_turn_by, turn_by. cbv zeta. cbn [vector_part scalar_part].
+  assert (r := v_rational_encloses t (vector_q w)).
+  set (a := coordinate_q w 6). set (x := vector_q w) in *.
+  assert (sq : dot (real_vec x) (real_vec x) = Q2R (dot_q x x))
+    by (unfold dot, dot_q, real_vec; cbn [vx vy vz]; now rewrite !Q2R_plus, !Q2R_mult).
+  assert (two : 2 = Q2R 2) by (unfold Q2R; cbn; lra).
+  assert (k : forall q, encloses t (constant prec (fraction prec q)) (Q2R q) (Q2R q))
+    by (intros q; apply constant_encloses, fraction_is_in).
+  rewrite sq, two, <- !Q2R_mult, <- Q2R_minus, <- Q2R_plus.
+  apply v_scale_encloses.
+  - apply constant_encloses. rewrite <- (Rmult_1_l (/ _)). apply div_is_in; [apply (integer_is_in prec 1) | apply fraction_is_in].
+  - repeat first [exact e | exact r | apply k | apply v_add_encloses | apply v_scale_encloses | apply v_cross_encloses |
+      apply mul_encloses | apply v_dot_encloses].
+Qed.
+
+(** Where the turns are the same, a geodesic does not turn. *)
+Lemma no_turn u c s x : real_vec u = Vec 0 0 0 ->
+  turn_about (unit_along (real_vec u)) (s * (2 * atan (norm (real_vec u) / c))) x = x.
+Proof.
+  intros ->. rewrite norm_of_zero. replace (0 / c) with 0 by (unfold Rdiv; ring). rewrite atan_0.
+  replace (s * (2 * 0)) with 0 by ring. apply turn_about_by_nothing.
+Qed.
+
+Lemma geodesic_follows v w : follows (geodesic_form prec v w) (on_geodesic v w).
+Proof.
+  intros middle s m S t hm hm' hs ht turns. unfold geodesic_form in *.
+  destruct (between_q v w) as [u c] eqn:eq. cbn [is_turn] in turns. rewrite !andb_true_iff, negb_true_iff in turns.
+  destruct turns as [[hv hw] hc].
+  assert (rel := between_is_rational v w hv hw). rewrite eq in rel. cbn [fst snd] in rel.
+  assert (c_not_0 : Q2R c <> 0).
+  { intros z. assert (Qeq_bool c 0 = true); [| congruence]. apply Qeq_bool_iff, eqR_Qeq. rewrite z. unfold Q2R. cbn. lra. }
+  assert (sq : square (quaternion_of v) <> 0).
+  { apply (squares_are_not_0 _ (quaternion_of w)). now rewrite rel. }
+  unfold on_geodesic. rewrite rel. cbn [vector_part scalar_part].
+  assert (still : is_vector u = false -> real_vec u = Vec 0 0 0).
+  { unfold is_vector. rewrite negb_false_iff, !andb_true_iff. intros [[x y] z]. unfold real_vec.
+    now rewrite (zero_of _ x), (zero_of _ y), (zero_of _ z). }
+  assert (rigid : forall x P, is_rigid (Pose P (fun y => turn_by (quaternion_of v)
+      (turn_about (unit_along (real_vec u)) (x * (2 * atan (norm (real_vec u) / Q2R c))) y)))).
+  { intros x P. split; cbn [turn].
+    - intros y. rewrite (turn_about_axis_is_linear _ _ y). apply turn_by_is_linear.
+    - intros y z. rewrite turn_by_keeps_dot by exact sq. destruct (is_vector u) eqn:moves.
+      + apply turn_about_keeps_dot, unit_along_is_unit. now apply vector_is_not_0.
+      + now rewrite !no_turn by now apply still. }
+  split; [apply rigid | split; [apply rigid |]].
+  assert (line := line_follows v w middle s m S t hm hm' hs ht). split; cbn [position turn place images].
+  - split; [| split]; cbn [vx vy vz]; apply line.
+  - apply columns_of_encloses. intros V x e. apply turn_by_encloses; [exact hv |].
+    destruct (is_vector u) eqn:moves; [| now rewrite !no_turn by now apply still].
+    apply turn_about_encloses; [apply unit_encloses | | exact e].
+    apply mul_encloses; [now apply place_encloses |]. apply constant_encloses. apply mul_is_in; [apply (integer_is_in prec 2) |].
+    apply atan_is_in, div_is_in; [apply norm_of_is_in, fractions_are_in | apply fraction_is_in].
+Qed.
+
+Lemma motions_follow m l path : Forall2 follows (motions prec m l path) (segments m l path).
 Proof.
   induction path as [| v path IH]; [constructor |].
   destruct l; cbn [motions segments].
-  - destruct path as [| w path]; [constructor |]. constructor; [apply line_follows | exact IH].
-  - destruct path as [| b [| c [| d path]]]; try constructor. apply spline_follows. exact IH.
+  - destruct path as [| w path]; [constructor |]. constructor; [apply posed_follows, line_follows | exact IH].
+  - destruct path as [| b [| c [| d path]]]; try constructor. apply posed_follows, spline_follows. exact IH.
+  - destruct path as [| w path]; [constructor |]. constructor; [apply geodesic_follows | exact IH].
 Qed.
 
 Section Certificate.
 
 Variable c : certificate.
-Hypothesis scope : in_scope (load (subject c)) = true.
 Hypothesis turns_little : below prec (angle_of prec (subject c)) (one prec) = true.
 
 Lemma angle_is_below_1 : Rabs (value (fun _ => 0) (of_orientation (tolerance (subject c)))) < 1.
@@ -909,12 +1109,12 @@ Proof.
   lia.
 Qed.
 
-Notation holds q s := (forall b P, is_built (subject c) b -> is_tracked (subject c) (pose_at (subject c) (q s)) P ->
+Notation holds q s := (forall b P, is_built (subject c) b -> is_tracked (subject c) (q s) P ->
   feasible_at (subject c) b (tension_margin c) (length_margin c) P).
 
 Section Motion.
 
-Variables (f : motion_form) (q : R -> nat -> R).
+Variables (f : motion_form) (q : R -> pose).
 Hypothesis f_follows : follows f q.
 
 Theorem box_is_sound start b : check_box prec c f start b = true ->
@@ -932,10 +1132,10 @@ Proof.
     - rewrite Rmin_left, Rmax_right by lra. lra. }
   intros B P hb [off [n [angle [ho [hn [ha ->]]]]]].
   set (t := change_of (subject c) (s - Q2R middle) B off n angle).
-  assert (forms := f_follows _ _ _ _ t hm hm' hs eq_refl).
+  destruct (f_follows _ _ _ _ t hm hm' hs eq_refl (check_pose_turns _ _ _ _ _ _ h)) as [rm [rs forms]].
   refine (pose_is_sound t (sub prec S (fraction prec middle), radii prec (subject c)) _ _ eq_refl
-    (deviations_are_within _ _ _ _ _ _ hb ho hn ha) _ (q (Q2R middle)) (q s) forms (subject c) B off n angle hn ha
-    angle_is_below_1 eq_refl eq_refl eq_refl _ _ ho hb _ _ b scope h).
+    (deviations_are_within _ _ _ _ _ _ hb ho hn ha) (q (Q2R middle)) (q s) _ rm rs forms (subject c) B off n angle hn ha
+    angle_is_below_1 eq_refl eq_refl eq_refl _ _ ho hb _ _ b h).
   - cbn [fst]. replace 0 with (Q2R middle - Q2R middle) by ring. now apply sub_is_in.
   - cbn [fst]. now apply sub_is_in.
   - apply each_of_six; reflexivity.
@@ -960,7 +1160,7 @@ Qed.
 End Motion.
 
 Lemma motions_are_sound fs qs : Forall2 follows fs qs -> forall l, check_motions prec c fs l = true ->
-  Forall (fun q : R -> nat -> R => forall s, 0 <= s <= 1 -> holds q s) qs.
+  Forall (fun q : R -> pose => forall s, 0 <= s <= 1 -> holds q s) qs.
 Proof.
   induction 1 as [| f q fs qs fq _ IH]; intros l h; [constructor |].
   destruct l as [| b l]; [discriminate h |].
@@ -975,9 +1175,9 @@ End Precision.
 (** What the checker accepts is true. *)
 Theorem check_sound c : check c = true -> statement c.
 Proof.
-  unfold check. cbv zeta. rewrite !andb_true_iff. intros [[[many scope] little] h].
-  assert (all := motions_follow (F.PtoP (bits c)) (motion c) (path c)).
-  split; [| exact (motions_are_sound (F.PtoP (bits c)) c scope little _ _ all (boxes c) h)].
+  unfold check. cbv zeta. rewrite !andb_true_iff. intros [[many little] h].
+  assert (all := motions_follow (F.PtoP (bits c)) (subject c) (motion c) (path c)).
+  split; [| exact (motions_are_sound (F.PtoP (bits c)) c little _ _ all (boxes c) h)].
   destruct all; [discriminate many | discriminate].
 Qed.
 

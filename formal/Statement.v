@@ -77,7 +77,7 @@ Inductive expr :=
   | Sqrt (e : expr) | Sin (e : expr) | Cos (e : expr).
 
 Inductive angles := TiltTorsion (phi theta sigma : expr) | RollPitchYaw (roll pitch yaw : expr)
-  | Zyz (alpha beta gamma : expr).
+  | Zyz (alpha beta gamma : expr) | About (axis : vec Q) (angle : expr).
 
 (** How far a machine may be from what is stated, in any direction: each cable's two anchors, and the load point; and
     how far the platform may be from where it is meant to be, and by what angle turned: an expression without parameters, of
@@ -92,6 +92,11 @@ Record machine := Machine { cables : six cable; load_point : vec Q; load : list 
 Definition rot_x (t : R) (v : vec R) := Vec (vx v) (cos t * vy v - sin t * vz v) (sin t * vy v + cos t * vz v).
 Definition rot_y (t : R) (v : vec R) := Vec (cos t * vx v + sin t * vz v) (vy v) (cos t * vz v - sin t * vx v).
 Definition rot_z (t : R) (v : vec R) := Vec (cos t * vx v - sin t * vy v) (sin t * vx v + cos t * vy v) (vz v).
+
+(** Turned about the axis n, a unit vector, by an angle. *)
+Definition turn_about (n : vec R) (angle : R) (v : vec R) : vec R :=
+  plus (plus (times (cos angle) v) (times (sin angle) (cross n v))) (times ((1 - cos angle) * dot n v) n).
+Definition unit_along (v : vec R) : vec R := times (/ norm v) v.
 
 Fixpoint value (p : nat -> R) (e : expr) : R :=
   match e with
@@ -118,6 +123,7 @@ Definition pose_at (m : machine) (p : nat -> R) : pose :=
                  | TiltTorsion phi theta sigma => rot_z (v phi) (rot_y (v theta) (rot_z (v sigma - v phi) u))
                  | RollPitchYaw roll pitch yaw => rot_z (v yaw) (rot_y (v pitch) (rot_x (v roll) u))
                  | Zyz alpha beta gamma => rot_z (v alpha) (rot_y (v beta) (rot_z (v gamma) u))
+                 | About axis angle => turn_about (unit_along (real_vec axis)) (v angle) u
                  end).
 
 (** ** Tolerances *)
@@ -131,10 +137,6 @@ Definition is_built (m : machine) (b : built) : Prop :=
   let close c t a := near (fst t) (fst a) (base c) /\ near (snd t) (snd a) (platform c) in
   all6 (zip6 (fun close a => close a) (zip6 close (cables m) (of_anchors (tolerance m))) (anchors b)) /\
   near (of_load_point (tolerance m)) (load_at b) (load_point m).
-
-(** Turned about the axis n, a unit vector, by an angle. *)
-Definition turn_about (n : vec R) (angle : R) (v : vec R) : vec R :=
-  plus (plus (times (cos angle) v) (times (sin angle) (cross n v))) (times ((1 - cos angle) * dot n v) n).
 
 (** Where the platform may be while it is meant to be at P. *)
 Definition is_tracked (m : machine) (P P' : pose) : Prop :=
@@ -227,29 +229,56 @@ Definition waypoint := list (Q * Z).
 Definition coordinate (w : waypoint) (i : nat) : R := let (q, h) := nth i w (0%Q, 0%Z) in q + IZR h * PI.
 
 (** From each waypoint to the next the path is straight in the parameters. Or its waypoints are the control points of a
-    uniform cubic B-spline, which has a segment for any four in a row. *)
-Inductive law := Straight | Spline.
+    uniform cubic B-spline, which has a segment for any four in a row. Or they are poses, whatever the machine says of
+    parameters, and the path turns from each to the next about one axis. *)
+Inductive law := Straight | Spline | Geodesic.
 
 Definition on_line (v w : waypoint) (s : R) (i : nat) : R := coordinate v i + s * (coordinate w i - coordinate v i).
 Definition on_spline (a b c d : waypoint) (s : R) (i : nat) : R :=
   ((1 - s) ^ 3 * coordinate a i + (3 * s ^ 3 - 6 * s ^ 2 + 4) * coordinate b i +
    (- 3 * s ^ 3 + 3 * s ^ 2 + 3 * s + 1) * coordinate c i + s ^ 3 * coordinate d i) / 6.
 
-(** Its segments: the parameters at each s from 0 to 1. *)
-Fixpoint segments (l : law) (path : list waypoint) : list (R -> nat -> R) :=
+(** A quaternion has a vector part and a scalar part, and stands for a turn whatever its length is, but for 0. *)
+Record quaternion := Quaternion { vector_part : vec R; scalar_part : R }.
+
+Definition turn_by (q : quaternion) (v : vec R) : vec R :=
+  let u := vector_part q in
+  let w := scalar_part q in
+  times (/ (dot u u + w * w))
+    (plus (plus (times (w * w - dot u u) v) (times (2 * dot u v) u)) (times (2 * w) (cross u v))).
+
+(** The turn from one quaternion's axes to those of another, in the former: its conjugate times the other. *)
+Definition between (p q : quaternion) : quaternion :=
+  Quaternion (minus (minus (times (scalar_part p) (vector_part q)) (times (scalar_part q) (vector_part p)))
+                    (cross (vector_part p) (vector_part q)))
+             (scalar_part p * scalar_part q + dot (vector_part p) (vector_part q)).
+
+(** The coordinates of a waypoint that is a pose are its position, and a quaternion, vector part first. The position is
+    straight and the turn at a constant rate, the shorter way round; half a turn, where the scalar part is 0, is none. *)
+Definition quaternion_of (w : waypoint) : quaternion :=
+  Quaternion (Vec (coordinate w 3) (coordinate w 4) (coordinate w 5)) (coordinate w 6).
+Definition on_geodesic (v w : waypoint) (s : R) : pose :=
+  let q := between (quaternion_of v) (quaternion_of w) in
+  let angle := 2 * atan (norm (vector_part q) / scalar_part q) in
+  Pose (Vec (on_line v w s 0) (on_line v w s 1) (on_line v w s 2))
+       (fun u => turn_by (quaternion_of v) (turn_about (unit_along (vector_part q)) (s * angle) u)).
+
+(** Its segments: the poses at each s from 0 to 1. *)
+Fixpoint segments (m : machine) (l : law) (path : list waypoint) : list (R -> pose) :=
   match path with
   | nil => nil
   | v :: rest =>
       match l, rest with
-      | Straight, w :: _ => on_line v w :: segments l rest
-      | Spline, b :: c :: d :: _ => on_spline v b c d :: segments l rest
+      | Straight, w :: _ => (fun s => pose_at m (on_line v w s)) :: segments m l rest
+      | Spline, b :: c :: d :: _ => (fun s => pose_at m (on_spline v b c d s)) :: segments m l rest
+      | Geodesic, w :: _ => on_geodesic v w :: segments m l rest
       | _, _ => nil
       end
   end.
 
 (** There is a segment, and all poses of all segments are feasible, of every machine within its tolerances. *)
 Definition wrench_feasible (m : machine) (l : law) (path : list waypoint) (tension_margin length_margin : Q) : Prop :=
-  segments l path <> nil /\
-  Forall (fun motion : R -> nat -> R => forall s, 0 <= s <= 1 ->
-    forall b P, is_built m b -> is_tracked m (pose_at m (motion s)) P ->
-    feasible_at m b tension_margin length_margin P) (segments l path).
+  segments m l path <> nil /\
+  Forall (fun motion : R -> pose => forall s, 0 <= s <= 1 ->
+    forall b P, is_built m b -> is_tracked m (motion s) P ->
+    feasible_at m b tension_margin length_margin P) (segments m l path).

@@ -114,15 +114,6 @@ std::string orientation_text(const TolerancesText& tolerances) {
   return expression_texts(ExpressionTape({tolerances.orientation_rad}, {}, {})).front();
 }
 
-void require_load_in_scope(const LoadText& load) {
-  if (!load.ellipsoid) return;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      if (i != j && parse_rational((*load.ellipsoid)[i][j]) != 0) refuse("an ellipsoid whose matrix is not diagonal");
-    }
-  }
-}
-
 /// The problem with everything that machine_text() writes, and with what says nothing of which motions are feasible:
 /// names, the query, which parameters are periodic or have a range. Fields are copied one by one, so that a new field
 /// of a problem is missing here until somebody has thought of it.
@@ -142,7 +133,7 @@ Problem stated_part(const Problem& problem) {
     stated.space.parameters.push_back({parameter.name, parameter.kind, parameter.range_lower, parameter.range_upper});
   }
   stated.space.constants = problem.space.constants;
-  stated.space.angles.kind = problem.space.angles.kind;
+  stated.space.angles = AnglesText{problem.space.angles.kind, problem.space.angles.axis};
   stated.space.flip = problem.space.flip;
   stated.space.pose = problem.space.pose;
   if (problem.tolerances) {
@@ -206,6 +197,17 @@ std::string load_text(const LoadText& load, const TolerancesText& tolerances) {
   return fmt::format("[{}]", fmt::join(items, ";\n    "));
 }
 
+/// @param pose  the position's expressions and the angles'
+std::string angles_text(const AnglesText& angles, const std::vector<std::string>& pose) {
+  switch (angles.kind) {
+    case AngleKind::kTiltAndTorsion: return fmt::format("TiltTorsion {} {} {}", pose[3], pose[4], pose[5]);
+    case AngleKind::kRollPitchYaw: return fmt::format("RollPitchYaw {} {} {}", pose[3], pose[4], pose[5]);
+    case AngleKind::kZyz: return fmt::format("Zyz {} {} {}", pose[3], pose[4], pose[5]);
+    case AngleKind::kAxis: break;
+  }
+  return fmt::format("About {} {}", vec(angles.axis), pose[3]);
+}
+
 std::string machine_text(const Problem& stated) {
   const RobotText& robot = stated.robot;
   std::string text = "Definition robot : machine := {|\n  cables := Six";
@@ -217,12 +219,8 @@ std::string machine_text(const Problem& stated) {
   text +=
       fmt::format(";\n  load_point := {};\n  load := {}", vec(stated.load.point_m), load_text(stated.load, tolerances));
   const std::vector<std::string> pose = expression_texts(pose_tape(stated.space));
-  const AngleKind kind = stated.space.angles.kind;
-  text += fmt::format(";\n  pose_position := Vec {} {} {};\n  pose_angles := {} {} {} {}", pose[0], pose[1], pose[2],
-                      kind == AngleKind::kTiltAndTorsion ? "TiltTorsion"
-                      : kind == AngleKind::kRollPitchYaw ? "RollPitchYaw"
-                                                         : "Zyz",
-                      pose[3], pose[4], pose[5]);
+  text += fmt::format(";\n  pose_position := Vec {} {} {};\n  pose_angles := {}", pose[0], pose[1], pose[2],
+                      angles_text(stated.space.angles, pose));
   text += ";\n  tolerance := Tolerances (Six";
   for (std::size_t i = 0; i < 6; ++i) {
     text += fmt::format(" ({}, {})", number(tolerances.base_anchor_m[i]), number(tolerances.platform_anchor_m[i]));
@@ -232,10 +230,16 @@ std::string machine_text(const Problem& stated) {
   return text;
 }
 
+std::string law_text(Interpolation law) {
+  if (law == Interpolation::kGeodesic) return "Geodesic";
+  return law == Interpolation::kStraight ? "Straight" : "Spline";
+}
+
 std::string waypoint_text(const Waypoint& waypoint) {
   std::vector<std::string> coordinates;
   for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
-    coordinates.push_back(fmt::format("({}, {}%Z)", hex(waypoint.x[j]), integer(waypoint.half_turns[j])));
+    const int half_turns = waypoint.half_turns.empty() ? 0 : waypoint.half_turns[j];
+    coordinates.push_back(fmt::format("({}, {}%Z)", hex(waypoint.x[j]), integer(half_turns)));
   }
   return fmt::format("[{}]", fmt::join(coordinates, "; "));
 }
@@ -262,15 +266,11 @@ std::string boxes_text(const std::vector<std::vector<Box>>& boxes) {
 void require_in_scope(const Certificate& certificate) {
   const Problem& problem = certificate.problem;
   const Interpolation law = certificate.path.interpolation;
-  if (law != Interpolation::kStraight && law != Interpolation::kCubicBSpline) {
-    refuse(fmt::format("a path that is {}", interpolation_name(law)));
-  }
+  if (law == Interpolation::kCableLengths) refuse(fmt::format("a path that is {}", interpolation_name(law)));
   if (certificate.path.segments() == 0) refuse("a path of a single waypoint");
   if (problem.tolerances && problem.tolerances->cable_length_m) refuse("a machine controlled by its cables' lengths");
   if (problem.bodies) refuse("bodies");
   if (!problem.space.constraints.empty()) refuse("constraints");
-  if (problem.space.angles.kind == AngleKind::kAxis) refuse("a platform that turns about an axis");
-  require_load_in_scope(problem.load);
   require_all_is_stated(problem);
   const std::string items = problem.load.items.empty() ? "" : checker::kItemsClause;
   if (certificate.claim != checker::kProvedClaim + items) refuse("a claim of more than tensions and lengths");
@@ -285,9 +285,10 @@ std::string coq_file(const Certificate& certificate, const std::string& sha256,
   const Problem stated = stated_part(certificate.problem);
   std::vector<std::string> names;
   for (const Parameter& parameter : stated.space.parameters) names.push_back(parameter.name);
+  if (certificate.path.interpolation == Interpolation::kGeodesic) names = {"px", "py", "pz", "qx", "qy", "qz", "qw"};
   return fmt::format(
       "(* Written by taut formal from the certificate with the SHA-256 {}.\n"
-      "   The theorem is at the end; its terms are defined in Statement.v. Its parameters are, from 0: {}.\n"
+      "   The theorem is at the end; its terms are defined in Statement.v. A waypoint's coordinates are: {}.\n"
       "   Coq reads this with: coqc -Q FOLDER Taut THIS_FILE, where FOLDER has what formal/build compiles. *)\n"
       "From Coq Require Import QArith ZArith List.\n"
       "From Taut Require Import Statement Certificate Verify.\n"
@@ -304,8 +305,7 @@ std::string coq_file(const Certificate& certificate, const std::string& sha256,
       "Theorem feasible : statement cert.\n"
       "Proof. apply {}.check_sound. vm_cast_no_check (eq_refl true). Qed.\n"
       "Print Assumptions feasible.\n",
-      sha256, fmt::join(names, ", "), machine_text(stated),
-      certificate.path.interpolation == Interpolation::kStraight ? "Straight" : "Spline",
+      sha256, fmt::join(names, ", "), machine_text(stated), law_text(certificate.path.interpolation),
       fmt::join(waypoints, ";\n           "), bits(certificate.problem), boxes_text(boxes),
       instance == Instance::kExact ? "Exact" : "Fast");
 }

@@ -44,14 +44,32 @@ Load::Item Load::item(const LoadItem& stated, const LoadText& load, Interval loa
   return result;
 }
 
+std::vector<Load::Square> Load::squares(const EllipsoidText& matrix) {
+  std::array<std::array<Rational, 6>, 6> rest;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) rest[i][j] = parse_rational(matrix[i][j]);
+  }
+  std::vector<Square> result;
+  for (std::size_t k = 0; k < 6; ++k) {
+    Square square{nearly(rest[k][k]), {}};
+    for (std::size_t j = k + 1; j < 6; ++j) square.others.push_back(nearly(rest[k][j] / rest[k][k]));
+    for (std::size_t i = k + 1; i < 6; ++i) {
+      const Rational share = rest[k][i] / rest[k][k];
+      for (std::size_t j = k + 1; j < 6; ++j) rest[i][j] -= share * rest[k][j];
+    }
+    result.push_back(std::move(square));
+  }
+  return result;
+}
+
 Load::Load(const LoadText& load, const TolerancesText& tolerances) {
   if (load.ellipsoid) {
     Ellipsoid ellipsoid;
     for (std::size_t i = 0; i < 6; ++i) {
       ellipsoid.center[i] = exact(load.wrench[i]);
       ellipsoid.shift[i] = exact(tolerances.wrench[i]);
-      ellipsoid.diagonal[i] = exact((*load.ellipsoid)[i][i]);
     }
+    ellipsoid.squares = squares(*load.ellipsoid);
     items_.emplace_back(ellipsoid);
   }
   for (const LoadItem& stated : load.items) items_.push_back(item(stated, load, exact(tolerances.load_point_m)));
@@ -69,10 +87,12 @@ class Load::Row {
 
   Part operator()(const Ellipsoid& ellipsoid) const {
     Interval center(0.0), shift(0.0), square(0.0);
+    std::array<Interval, 6> rest = y_;
     for (std::size_t k = 0; k < 6; ++k) {
       center += y_[k] * ellipsoid.center[k];
       shift += y_[k] * ellipsoid.shift[k];
-      square += y_[k] * y_[k] / ellipsoid.diagonal[k];
+      square += sqr(rest[k]) / ellipsoid.squares[k].scale;
+      for (std::size_t j = k + 1; j < 6; ++j) rest[j] -= rest[k] * ellipsoid.squares[k].others[j - k - 1];
     }
     return {Slope(center), symmetric(Interval(magnitude(shift)) + sqrt(square))};
   }

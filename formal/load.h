@@ -21,7 +21,7 @@ struct Part {
 class Load {
  public:
   Load() = default;
-  /// Under run_upward(). @pre an ellipsoid's matrix is diagonal
+  /// Under run_upward(). @pre an ellipsoid's matrix is symmetric and positive
   Load(const LoadText& load, const TolerancesText& tolerances);
 
   /// @param turn  images of the platform's axes
@@ -43,8 +43,14 @@ class Load {
   };
   using Set = std::variant<Ball, Disc, Along>;
 
+  /// A square a (z_k + k·z')^2, where z' are the coordinates after z_k.
+  struct Square {
+    Interval scale;
+    std::vector<Interval> others;  ///< k; none where all are 0
+  };
   struct Ellipsoid {
-    std::array<Interval, 6> center, shift, diagonal;
+    std::array<Interval, 6> center, shift;
+    std::vector<Square> squares;  ///< the matrix's form is their sum
   };
   /// Points are given from the load point.
   struct Mass {
@@ -66,6 +72,7 @@ class Load {
 
   class Row;
 
+  static std::vector<Square> squares(const EllipsoidText& matrix);
   static Along along(const RationalVector& direction, const RationalText& lower, const RationalText& upper);
   static Set set(const VectorSet& stated);
   static Item item(const LoadItem& stated, const LoadText& load, Interval load_point_tolerance);

@@ -107,8 +107,26 @@ Vector turned_about(const SinCos<Slope>& angle, std::size_t axis, const Vector& 
   return result;
 }
 
+using Columns = std::array<Vector, 3>;
+
 /// The images of the unit vectors.
-std::array<Vector, 3> rotation(AngleKind kind, const std::vector<Slope>& pose) {
+template <class Turn>
+Columns images(const Turn& turn) {
+  Columns columns;
+  for (std::size_t i = 0; i < 3; ++i) {
+    columns[i][i] = Slope(Interval(1.0));
+    columns[i] = turn(columns[i]);
+  }
+  return columns;
+}
+
+Columns rotation(const AnglesText& stated, const std::vector<Slope>& pose) {
+  const AngleKind kind = stated.kind;
+  if (kind == AngleKind::kAxis) {
+    const Vector axis = unit_along({exact(stated.axis[0]), exact(stated.axis[1]), exact(stated.axis[2])});
+    const SinCos<Slope> angle = sincos(pose[3]);
+    return images([&](const Vector& v) { return turned_about(axis, angle, v); });
+  }
   std::array<Slope, 3> angles{pose[3], pose[4], pose[5]};
   std::array<std::size_t, 3> axes{2, 1, 2};
   if (kind == AngleKind::kTiltAndTorsion) angles[2] = pose[5] - pose[3];
@@ -116,13 +134,70 @@ std::array<Vector, 3> rotation(AngleKind kind, const std::vector<Slope>& pose) {
     std::swap(angles[0], angles[2]);
     axes[2] = 0;
   }
-  std::array<Vector, 3> columns;
-  for (std::size_t i = 0; i < 3; ++i) {
-    columns[i][i] = Slope(Interval(1.0));
-    for (std::size_t k = 3; k-- > 0;) columns[i] = turned_about(sincos(angles[k]), axes[k], columns[i]);
-  }
-  return columns;
+  return images([&](Vector v) {
+    for (std::size_t k = 3; k-- > 0;) v = turned_about(sincos(angles[k]), axes[k], v);
+    return v;
+  });
 }
+
+/// From one pose to another: R_0, and then a turn about an axis. In exact numbers, so that how small a turn is does not
+/// matter.
+class Geodesic {
+ public:
+  /// Under run_upward().
+  explicit Geodesic(const Segment& segment) {
+    std::array<std::array<Rational, 4>, 2> q;
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::vector<double>& x = segment.control[end]->x;
+      for (std::size_t i = 0; i < 4; ++i) q[end][i] = Rational(x[3 + i]);
+      for (std::size_t i = 0; i < 3; ++i) position_[end][i] = Slope(Interval(x[i]));
+    }
+    const auto& [p, r] = q;
+    std::array<Interval, 3> vector;
+    for (std::size_t x = 0; x < 3; ++x) {
+      const std::size_t y = (x + 1) % 3, z = (x + 2) % 3;
+      const Rational part = p[3] * r[x] - r[3] * p[x] - (p[y] * r[z] - p[z] * r[y]);
+      turns_ = turns_ || part != 0;
+      vector[x] = nearly(part);
+      u_[x] = Slope(nearly(p[x]));
+    }
+    const Rational square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+    inverse_ = Slope(Interval(1.0) / nearly(square + p[3] * p[3]));
+    straight_ = Slope(nearly(p[3] * p[3] - square));
+    twice_ = Slope(nearly(2 * p[3]));
+    if (!turns_) return;
+    axis_ = unit_along(vector);
+    angle_ = Interval(2.0) * atan(norm(vector) / nearly(p[3] * r[3] + p[0] * r[0] + p[1] * r[1] + p[2] * r[2]));
+  }
+
+  [[nodiscard]] Vector position(const Slope& s) const {
+    Vector result = position_[0];
+    for (std::size_t i = 0; i < 3; ++i) result[i] = result[i] + s * (position_[1][i] - position_[0][i]);
+    return result;
+  }
+  [[nodiscard]] Columns columns(const Slope& s) const {
+    const SinCos<Slope> angle = sincos(s * Slope(angle_));
+    return images([&](const Vector& v) { return first(turns_ ? turned_about(axis_, angle, v) : v); });
+  }
+
+ private:
+  /// R_0 v.
+  [[nodiscard]] Vector first(const Vector& v) const {
+    const Slope along = Slope(Interval(2.0)) * dot(u_, v);
+    const Vector across = cross(u_, v);
+    Vector result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      result[i] = inverse_ * (straight_ * v[i] + along * u_[i] + twice_ * across[i]);
+    }
+    return result;
+  }
+
+  std::array<Vector, 2> position_;
+  Vector u_, axis_;
+  Slope inverse_, straight_, twice_;
+  Interval angle_{0.0};
+  bool turns_ = false;
+};
 
 bool invert(Matrix a, Matrix& inverse) {
   inverse = {};
@@ -154,7 +229,9 @@ bool invert(Matrix a, Matrix& inverse) {
 class Judge {
  public:
   Judge(const Problem& problem, const Machine& machine, const ExpressionTape& tape, const Segment& segment)
-      : problem_(problem), tape_(tape), segment_(segment), machine_(machine) {}
+      : problem_(problem), tape_(tape), segment_(segment), machine_(machine) {
+    if (segment.law == Interpolation::kGeodesic) geodesic_.emplace(segment);
+  }
 
   /// Sets the numbers of a box; whether Coq will accept it. Under run_upward().
   bool judge(Box& box) {
@@ -167,18 +244,18 @@ class Judge {
 
  private:
   void place(Interval s, Interval middle) {
-    std::vector<Slope> parameters;
-    for (std::size_t j = 0; j < problem_.space.parameters.size(); ++j) {
-      const Polynomial<Interval> x = coordinate_polynomial<Interval>(segment_, j);
-      const Slope at(middle, s, Interval(1.0));
-      Slope value = Slope(x.c[0]) + at * Slope(x.c[1]);
-      if (x.cubic) value = Slope(x.c[0]) + at * (Slope(x.c[1]) + at * (Slope(x.c[2]) + at * Slope(x.c[3])));
-      parameters.push_back(value);
+    const Slope at(middle, s, Interval(1.0));
+    Vector position;
+    if (geodesic_) {
+      position = geodesic_->position(at);
+      columns_ = geodesic_->columns(at);
+    } else {
+      const std::vector<Slope> pose = evaluate(tape_, parameters(at));
+      position = {pose[0], pose[1], pose[2]};
+      columns_ = rotation(problem_.space.angles, pose);
     }
-    const std::vector<Slope> pose = evaluate(tape_, parameters);
-    columns_ = rotation(problem_.space.angles.kind, pose);
     for (Vector& column : columns_) column = turned(machine_.radii[kTurn], column);
-    const Vector position = within(kPosition, machine_.radii[kPosition], {pose[0], pose[1], pose[2]});
+    position = within(kPosition, machine_.radii[kPosition], position);
     for (std::size_t i = 0; i < 6; ++i) {
       const Vector d = tight(position + image(columns_, machine_.platform[i]) - machine_.base[i], reach_);
       const Vector moment = cross(tight(image(columns_, machine_.lever[i]), reach_), d);
@@ -188,6 +265,17 @@ class Judge {
         d_[k + 3][i] = moment[k];
       }
     }
+  }
+
+  [[nodiscard]] std::vector<Slope> parameters(const Slope& at) const {
+    std::vector<Slope> result;
+    for (std::size_t j = 0; j < problem_.space.parameters.size(); ++j) {
+      const Polynomial<Interval> x = coordinate_polynomial<Interval>(segment_, j);
+      Slope value = Slope(x.c[0]) + at * Slope(x.c[1]);
+      if (x.cubic) value = Slope(x.c[0]) + at * (Slope(x.c[1]) + at * (Slope(x.c[2]) + at * Slope(x.c[3])));
+      result.push_back(value);
+    }
+    return result;
   }
 
   /// C and x0, rounded to about twenty bits of the smallest row of C.
@@ -291,9 +379,10 @@ class Judge {
   const ExpressionTape& tape_;
   const Segment& segment_;
   const Machine& machine_;
+  std::optional<Geodesic> geodesic_;
   Reach reach_;
-  std::array<Vector, 3> columns_;  ///< of the rotation
-  std::array<Part, 6> parts_;      ///< what the load makes of each row of C
+  Columns columns_;            ///< of the rotation
+  std::array<Part, 6> parts_;  ///< what the load makes of each row of C
   std::array<std::array<Slope, 6>, 6> d_;
   std::array<std::array<Interval, 6>, 6> e_;
   std::array<Slope, 6> length_;

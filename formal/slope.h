@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -160,6 +161,15 @@ inline Vector turned(Interval angle, const Vector& v) {
   return result;
 }
 
+/// v turned about a unit vector.
+inline Vector turned_about(const Vector& axis, const SinCos<Slope>& angle, const Vector& v) {
+  const Slope share = (Slope(Interval(1.0)) - angle.cos) * dot(axis, v);
+  const Vector across = cross(axis, v);
+  Vector result;
+  for (std::size_t i = 0; i < 3; ++i) result[i] = angle.cos * v[i] + angle.sin * across[i] + share * axis[i];
+  return result;
+}
+
 /// Of a linear map. @param images  of the unit vectors
 inline Vector image(const std::array<Vector, 3>& images, const Vector& v) {
   Vector result;
@@ -167,6 +177,17 @@ inline Vector image(const std::array<Vector, 3>& images, const Vector& v) {
   return result;
 }
 
+/// Of the unit vector along v.
+inline Vector unit_along(const std::array<Interval, 3>& v) {
+  const Interval inverse = Interval(1.0) / norm(v);
+  return {Slope(inverse * v[0]), Slope(inverse * v[1]), Slope(inverse * v[2])};
+}
+
+/// Two units in the last place wide.
+inline Interval nearly(const Rational& x) {
+  const auto nearest = x.convert_to<double>();
+  return nearest == 0 ? Interval(0.0) : Interval(std::nextafter(nearest, -HUGE_VAL), std::nextafter(nearest, HUGE_VAL));
+}
 inline Interval exact(const RationalText& text) { return from_rational<Interval>(text); }
 inline Vector exact(const std::array<RationalText, 3>& text) {
   return {Slope(exact(text[0])), Slope(exact(text[1])), Slope(exact(text[2]))};

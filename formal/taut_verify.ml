@@ -338,15 +338,18 @@ let space json =
   let names = parameters @ List.map fst constants in
   if List.length (List.sort_uniq compare names) < List.length names then refuse place "a name that is there twice";
   List.iter (fun n -> if List.mem n names then refuse place "the name '%s'" n) [ "pi"; "sqrt"; "sin"; "cos" ];
+  let three kind = function [ a; b; c ] -> kind a b c | _ -> assert false in
   let kind, keys = match find "angles" f with
-    | None -> ((fun a b c -> TiltTorsion (a, b, c)), [ "phi"; "theta"; "sigma" ])
-    | Some (`String "roll-pitch-yaw") -> ((fun a b c -> RollPitchYaw (a, b, c)), [ "roll"; "pitch"; "yaw" ])
-    | Some (`String "zyz") -> ((fun a b c -> Zyz (a, b, c)), [ "alpha"; "beta"; "gamma" ])
+    | None -> (three (fun a b c -> TiltTorsion (a, b, c)), [ "phi"; "theta"; "sigma" ])
+    | Some (`String "roll-pitch-yaw") -> (three (fun a b c -> RollPitchYaw (a, b, c)), [ "roll"; "pitch"; "yaw" ])
+    | Some (`String "zyz") -> (three (fun a b c -> Zyz (a, b, c)), [ "alpha"; "beta"; "gamma" ])
+    | Some (`Assoc _ as angles) ->
+        let axis = vec place (get "axis" (fields place [ "axis" ] angles)) in
+        ((function [ a ] -> About (axis, a) | _ -> assert false), [ "turn" ])
     | Some _ -> refuse place "angles that Coq is not told" in
   let pose = fields place ([ "px"; "py"; "pz" ] @ keys) (get "pose" f) in
   let value key = expression { parameters; constants } (place ^ ".pose." ^ key) (text place (get key pose)) in
-  let angles = match keys with [ a; b; c ] -> kind (value a) (value b) (value c) | _ -> assert false in
-  (parameters, { vx = value "px"; vy = value "py"; vz = value "pz" }, angles)
+  (parameters, { vx = value "px"; vy = value "py"; vz = value "pz" }, kind (List.map value keys))
 
 (* ---- The path and the boxes ---- *)
 
@@ -356,15 +359,23 @@ let waypoint count json =
   List.map2 (fun x h -> (binary64 place (text place x), whole place h))
     (elements place ~count (get "x" f)) (elements place ~count (get "half_turns" f))
 
+(* Of a geodesic. *)
+let pose json =
+  let place = "path.waypoints" in
+  let f = fields place [ "position"; "quaternion" ] json in
+  let numbers key count = List.map (fun x -> (binary64 place (text place x), Int.zero)) (elements place ~count (get key f)) in
+  numbers "position" 3 @ numbers "quaternion" 4
+
 let path count json =
   let place = "path" in
   let f = fields place [ "interpolation"; "waypoints" ] ~optional:[ "pose_tubes"; "tubes"; "times" ] json in
   let motion = match text place (get "interpolation" f) with
     | "straight-in-parameters" -> Straight
     | "cubic-b-spline" -> Spline
+    | "geodesic" -> Geodesic
     | _ -> refuse place "a law that Coq is not told" in
-  List.iter (fun k -> if not (Option.fold ~none:true ~some:is_empty (find k f)) then refuse place "'%s'" k) [ "pose_tubes"; "tubes"; "times" ];
-  (motion, List.map (waypoint count) (elements place (get "waypoints" f)))
+  List.iter (fun k -> if not (Option.fold ~none:true ~some:is_empty (find k f)) then refuse place "'%s'" k) [ "pose_tubes"; "tubes" ];
+  (motion, List.map (if motion = Geodesic then pose else waypoint count) (elements place (get "waypoints" f)))
 
 let box json =
   let place = "boxes" in

@@ -13,7 +13,7 @@ import re
 from fractions import Fraction
 from random import Random
 
-from command_line import CASES, ROBOT1, SOURCE, TAUT, InFolder, main, run, text_of
+from command_line import AUDITS, CASES, ROBOT1, SOURCE, TAUT, InFolder, main, run, text_of
 from coq_data import read
 
 LIBRARY = os.path.join(SOURCE, "formal")
@@ -22,6 +22,8 @@ ROLL_PITCH_YAW = os.path.join(CASES, "robot1-roll-pitch-yaw.yaml")
 SPLINE = os.path.join(CASES, "tutorial", "03-a-smooth-move.yaml")
 ITEMS = os.path.join(SOURCE, "tests", "cli", "formal_items.yaml")
 TOLERANCES = os.path.join(SOURCE, "tests", "cli", "formal_tolerances.yaml")
+OBLIQUE = os.path.join(SOURCE, "tests", "cli", "formal_oblique.yaml")
+GEODESIC = os.path.join(AUDITS, "robot1-geodesic.yaml")
 EXACT = "tolerance := Tolerances (Six (0, 0) (0, 0) (0, 0) (0, 0) (0, 0) (0, 0)) 0 0 (Number 0)"
 AXIOMS = {"sig_not_dec", "sig_forall_dec", "functional_extensionality_dep", "epsilon_statement", "classic"}
 POSES = 12          # of each robot
@@ -32,7 +34,7 @@ OVERSTATED = Fraction(1, 10**12)
 
 class Proofs(InFolder):
     def plan(self, case):
-        said = run(TAUT, "plan", case, "--out", self.out, "--no-report", "--headroom", "0")
+        said = run(TAUT, "audit" if case == GEODESIC else "plan", case, "--out", self.out, "--no-report", "--headroom", "0")
         self.assertEqual(said.returncode, 0, said.stderr)
         return self.path("certificate.json")
 
@@ -50,7 +52,8 @@ class WhatIsTrue(Proofs):
     def test_the_kernel_proves_what_is_written(self):
         for case, options in ((ROBOT1, []), (SPHERE, ["--fast"]), (ROLL_PITCH_YAW, ["--fast"]),
                               (ITEMS, ["--fast"]), (ITEMS, []), (SPLINE, ["--fast"]),
-                              (TOLERANCES, ["--fast"]), (TOLERANCES, [])):
+                              (TOLERANCES, ["--fast"]), (TOLERANCES, []), (OBLIQUE, ["--fast"]), (OBLIQUE, []),
+                              (GEODESIC, ["--fast"])):
             with self.subTest(case):
                 said = run(TAUT, "formal", self.plan(case), *options)
                 self.assertEqual(said.returncode, 0, said.stderr)
@@ -90,6 +93,20 @@ class WhatIsNotTrue(Proofs):
         self.refused(SPLINE, [
                 ("straight from control point to control point", "motion := Spline", "motion := Straight"),
                 ("a control point elsewhere", r"(path := \[(?:\[[^]]*\];\s*){4}\[)\([^,]*,", r"\g<1>(9,")])
+
+    def test_it_refuses_a_geodesic_that_is_elsewhere(self):
+        self.refused(GEODESIC, [
+                ("a pose elsewhere", r"(path := \[(?:\[[^]]*\];\s*){4}\[)\([^,]*,", r"\g<1>(1,"),
+                ("no quaternion", r"(path := \[(?:\[[^]]*\];\s*){4}\[(?:\([^)]*%Z\); ){3}).*", r"\1(0, 0%Z)];"),
+                ("another law", "motion := Geodesic", "motion := Straight")])
+
+    def test_it_refuses_other_axes_and_ellipsoids(self):
+        self.refused(OBLIQUE, [
+                ("another axis", r"About \(Vec \(-1\) 2 \(-30\)\)", "About (Vec 30 2 (-1))"),
+                ("no axis", r"About \(Vec \(-1\) 2 \(-30\)\)", "About (Vec 0 0 0)"),
+                ("not symmetric", r"\(Six 10000 3000 1000", "(Six 10000 3000 1001"),
+                ("not positive", r"\(Six 10000 3000 1000", "(Six (-10000) 3000 1000"),
+                ("a larger load", r"\(Six 20000 \(-30000\) 0 0 0 2000000\)", "(Six 20000 (-30000) 0 0 0 100000)")])
 
     def test_it_refuses_larger_tolerances(self):
         self.refused(TOLERANCES, [
@@ -291,6 +308,96 @@ class WithinTolerances(Proofs):
                              f"  path := [{at}; {at}]; tension_margin := 0; length_margin := 0; bits := 60;\n"
                              f"  boxes := {box} |}} = {'true' if edit is None else 'false'}.\n"
                              "Proof. vm_compute. reflexivity. Qed.\n")
+        said = self.coqc(head + "".join(goals))
+        self.assertEqual(said.returncode, 0, said.stderr)
+
+
+class AlongMotions(Proofs):
+    """Poses of geodesics and of turns about an axis, computed otherwise, under an oblique ellipsoid: as WithinTolerances.
+
+    Of a short way, that one box is enough; its limits are just beyond what is reached at any of many places.
+    """
+    PLACES = 201
+    ROOM = 1.05  # times as far from the middle of what is reached
+    MATRIX = ((1e4, 3e3, 1e3, 0, 0, 2e4), (3e3, 2e4, 0, 0, 0, -3e4), (1e3, 0, 1e4, 0, 4e4, 0),
+              (0, 0, 0, 1e6, -3e5, 0), (0, 0, 4e4, -3e5, 1e6, 0), (2e4, -3e4, 0, 0, 0, 2e6))
+
+    def reached(self, problem, position, quaternion):
+        """[(least, greatest)] of tensions, and lengths, at a pose: by the matrix of a quaternion."""
+        x, y, z, w = (c / math.hypot(*quaternion) for c in quaternion)
+        rows = ((1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+                (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+                (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)))
+
+        def turn(v):
+            return [dot(row, v) for row in rows]
+        robot, load = problem["robot"], problem["load"]
+        columns, lengths = [], []
+        for base, platform in zip(robot["base_anchors_m"], robot["platform_anchors_m"]):
+            b = [float(Fraction(c)) for c in platform]
+            d = [p + u - float(Fraction(a)) for p, u, a in zip(position, turn(b), base)]
+            arm = turn([u - float(Fraction(c)) for u, c in zip(b, load["point_m"])])
+            columns.append((*d, *cross(arm, d)))
+            lengths.append(math.hypot(*d))
+        center, spread = [float(Fraction(c)) for c in load["wrench"]], inverse(self.MATRIX)
+        tensions = []
+        for row, length in zip(inverse(list(zip(*columns))), lengths):
+            reach = math.sqrt(dot(row, [dot(line, row) for line in spread]))
+            tensions.append([length * (dot(row, center) + sign * reach) for sign in (-1, 1)])
+        return tensions, lengths, columns
+
+    def goals(self, machine, problem, law, path, poses):
+        """One that the checker accepts, and for each limit one that it refuses: a pose is beyond it."""
+        all_of = [self.reached(problem, *pose) for pose in poses]
+        ends = {"tension": [[f(found[0][i][side] for found in all_of) for side, f in ((0, min), (1, max))]
+                            for i in range(6)],
+                "length": [[f(found[1][i] for found in all_of) for f in (min, max)] for i in range(6)]}
+        rows = inverse(list(zip(*all_of[self.PLACES // 2][2])))
+        center = [float(Fraction(c)) for c in problem["load"]["wrench"]]
+        box = f"[[Box 1 {SCALE} (Six {' '.join(map(six, rows))})%Z {six([dot(row, center) for row in rows])}%Z]]"
+        for edit in [None] + [(kind, i, side) for kind in ends for i in range(6) for side in (0, 1)]:
+            def limit(kind, i, side):
+                end, middle = ends[kind][i][side], sum(ends[kind][i]) / 2
+                return exact(end if edit == (kind, i, side) else middle + self.ROOM * (end - middle))
+            cables = iter(range(6))
+            limited = re.sub(r"\(([^()]+), ([^()]+)\) \(([^()]+), ([^()]+)\)\)", lambda _: " ".join(
+                f"({limit(kind, i, 0)}, {limit(kind, i, 1)})" for i in [next(cables)]
+                for kind in ("tension", "length")) + ")", machine)
+            points = "; ".join(f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in point)}]" for point in path)
+            yield (f"Goal Fast.N.C.check {{| subject := {limited}; {EXACT} |}}; motion := {law};\n"
+                   f"  path := [{points}]; tension_margin := 0; length_margin := 0; bits := 60;\n"
+                   f"  boxes := {box} |}} = {'true' if edit is None else 'false'}.\n"
+                   "Proof. vm_compute. reflexivity. Qed.\n")
+
+    def test_poses_and_loads_are_those_of_the_statement(self):
+        text = self.written(OBLIQUE)
+        problem = self.certificate()["problem"]
+        self.assertEqual([[float(Fraction(x)) for x in row] for row in problem["load"]["ellipsoid"]],
+                         [list(row) for row in self.MATRIX])
+        head, machine = re.match(r"(.*?)Definition robot : machine := (.*?);\n  tolerance := ", text, re.S).groups()
+        shares = [k / (self.PLACES - 1) for k in range(self.PLACES)]
+
+        def between(a, b, s):
+            return [x + s * (y - x) for x, y in zip(a, b)]
+        goals = []
+        # By the sines of shares of the angle between quaternions: of any length, and of the other sign.
+        for first, last in (((0, 0, 0.35, 0.01, -0.02, 0.29, 0.95), (1e-4, 2e-4, 0.35, 0.011, -0.021, 0.2905, 0.949)),
+                            ((0, 0, 0.36, 0.02, -0.04, 0.58, 1.9), (0, 2e-4, 0.36, -0.011, 0.02, -0.29, -0.949))):
+            p, q = ([c / math.hypot(*pose[3:]) for c in pose[3:]] for pose in (first, last))
+            if dot(p, q) < 0:
+                q = [-c for c in q]
+            angle = math.acos(dot(p, q))
+            poses = [(between(first[:3], last[:3], s),
+                      [(math.sin((1 - s) * angle) * x + math.sin(s * angle) * y) / math.sin(angle)
+                       for x, y in zip(p, q)]) for s in shares]
+            goals += self.goals(machine, problem, "Geodesic", (first, last), poses)
+        # About the case's axis, which is not of length 1.
+        axis = [c / math.hypot(-1, 2, -30) for c in (-1, 2, -30)]
+        first, last = (0.001, -0.6), (0.0012, -0.603)
+        poses = [((x, 0, 0.35), [math.sin(turn / 2) * c for c in axis] + [math.cos(turn / 2)])
+                 for x, turn in (between(first, last, s) for s in shares)]
+        self.assertIn("About (Vec (-1) 2 (-30)) (Param 1)", machine)
+        goals += self.goals(machine, problem, "Straight", (first, last), poses)
         said = self.coqc(head + "".join(goals))
         self.assertEqual(said.returncode, 0, said.stderr)
 

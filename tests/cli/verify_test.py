@@ -14,7 +14,7 @@ import re
 import sys
 import unittest
 
-from command_line import CASES, CHECK, ROBOT1, SOURCE, TAUT, InFolder, main, run, text_of
+from command_line import AUDITS, CASES, CHECK, ROBOT1, SOURCE, TAUT, InFolder, main, run, text_of
 
 sys.path.insert(0, os.path.join(SOURCE, "tests", "certificates"))
 import expand  # noqa: E402
@@ -23,7 +23,9 @@ VERIFY = os.path.join(SOURCE, "formal", "taut-verify")
 CORPUS = os.path.join(os.path.dirname(os.path.dirname(TAUT)), "tests", "certificates")
 ITEMS = os.path.join(SOURCE, "tests", "cli", "formal_items.yaml")
 TOLERANCES = os.path.join(SOURCE, "tests", "cli", "formal_tolerances.yaml")
-PLANNED = [ROBOT1, ITEMS, TOLERANCES, *(os.path.join(CASES, name + ".yaml") for name in
+OBLIQUE = os.path.join(SOURCE, "tests", "cli", "formal_oblique.yaml")
+GEODESIC = os.path.join(AUDITS, "robot1-geodesic.yaml")
+PLANNED = [ROBOT1, ITEMS, TOLERANCES, OBLIQUE, GEODESIC, *(os.path.join(CASES, name + ".yaml") for name in
                             ("robot1-roll-pitch-yaw", "robot1-free-box-qs-qg", "robot2-sphere-q1-q2",
                              "robot2-sphere-q2-q3", "robot2-free-q2-q3", "tutorial/03-a-smooth-move"))]
 # Of the corpus: rejected or malformed for what the statement does not say, so it is true all the same.
@@ -33,6 +35,8 @@ TRUE = {"roll_pitch_yaw_read_as_zyz": "a margin that is less", "start_one_ulp_of
         "flip_of_euler_angles": "which values are one pose", "flip_of_others": "which values are one pose",
         "flip_theta_periodic": "which values are one pose", "flip_phi_real": "which values are one pose",
         "range_with_a_name": "ranges of parameters", "limit_negative": "signs of limits",
+        **dict.fromkeys(("times_too_few", "times_equal", "times_fall"), "times of poses"),
+        **dict.fromkeys(("geodesic_in_other_angles", "poses_of_another_space"), "parameters, which a geodesic has not"),
         "waypoint_rounded": "that waypoints are of 53 bits", "loads_of_the_same_name": "names",
         **{f"tight_{what}_raised": "a margin that is less" for what in
            ("base_anchor", "platform_anchor", "load_point", "position", "orientation", "wrench")}}
@@ -51,7 +55,7 @@ class Verify(InFolder):
         return file if said.returncode == 0 else None
 
     def plan(self, case):
-        said = run(TAUT, "plan", case, "--out", self.out, "--no-report", "--headroom", "0")
+        said = run(TAUT, "audit" if case == GEODESIC else "plan", case, "--out", self.out, "--no-report", "--headroom", "0")
         self.assertEqual(said.returncode, 0, said.stderr)
         return self.path("certificate.json")
 
@@ -117,6 +121,73 @@ class Planned(Verify):
                 self.assertEqual(said.returncode, 3, said.stdout + said.stderr)
                 self.assertRegex(said.stderr, "below 0|ends before it begins")
 
+    def test_another_geodesic_is_refused(self):
+        certificate = self.plan(GEODESIC)
+        boxes = self.boxes(certificate)
+        stated = json.loads(text_of(certificate))
+        poses = stated["path"]["waypoints"]
+        self.assertGreater(len(poses), 20)
+
+        def at(key, k, value):
+            def edit(c):
+                c["path"]["waypoints"][10][key][k] = value
+            return edit
+        edits = [at("position", k, "0x1p-1") for k in range(2)] + [at("quaternion", k, "0x1.8p-1") for k in range(3)]
+        for k, edit in enumerate(edits):
+            with self.subTest(k):
+                mutant = copy.deepcopy(stated)
+                edit(mutant)
+                said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
+                self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
+        for quaternion, code in ((["0x0p+0"] * 4, 1), (["0x0p+0"] * 3, 3), (["0x0p+0"] * 5, 3),
+                                 (["1", "0", "0", "0"], 3), (self.opposite(poses[9]["quaternion"]), 1)):
+            with self.subTest(quaternion):
+                mutant = copy.deepcopy(stated)
+                mutant["path"]["waypoints"][10]["quaternion"] = quaternion
+                said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
+                self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+        # Minus a quaternion is the same turn, and so is one of twice the length.
+        for factor in (-1, 2):
+            mutant = copy.deepcopy(stated)
+            pose = mutant["path"]["waypoints"][10]
+            pose["quaternion"] = [(factor * float.fromhex(x)).hex() for x in pose["quaternion"]]
+            said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
+            self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+
+    def opposite(self, quaternion):
+        """Half a turn away: no geodesic leads there."""
+        x, y, z, w = quaternion
+        return [y, self.minus(x), w, self.minus(z)]
+
+    def minus(self, x):
+        return x[1:] if x.startswith("-") else "-" + x
+
+    def test_another_ellipsoid_is_refused(self):
+        certificate = self.plan(OBLIQUE)
+        boxes = self.boxes(certificate)
+        stated = json.loads(text_of(certificate))
+        matrix = stated["problem"]["load"]["ellipsoid"]
+
+        def entries(*changes):
+            rows = copy.deepcopy(matrix)
+            for i, j, value in changes:
+                rows[i][j] = value
+            return rows
+        for rows, code in ((entries((0, 1, "0"), (1, 0, "0")), 0), (entries((0, 1, "0")), 1), (entries((0, 0, "1")), 1),
+                           (entries((3, 4, "-1000001"), (4, 3, "-1000001")), 1), (entries((5, 5, "1e3")), 1),
+                           (entries((0, 0, "-1e4")), 1), (entries((3, 3, "1/0")), 3), (matrix[:5], 3)):
+            with self.subTest(rows):
+                mutant = copy.deepcopy(stated)
+                mutant["problem"]["load"]["ellipsoid"] = rows
+                said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
+                self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+        for axis, code in ((["0", "0", "0"], 1), (["30", "0", "0"], 1), (["-2", "4", "-60"], 0), (["1", "2"], 3)):
+            with self.subTest(axis):
+                mutant = copy.deepcopy(stated)
+                mutant["problem"]["space"]["angles"] = {"axis": axis}
+                said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
+                self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+
     def test_larger_tolerances_are_refused(self):
         certificate = self.plan(TOLERANCES)
         boxes = self.boxes(certificate)
@@ -180,6 +251,7 @@ class Planned(Verify):
                 ("a missing key", '"point_m"', '"point"'),
                 ("tolerances without keys", '"tolerances":null', '"tolerances":{}'),
                 ("another law", "straight-in-parameters", "geodesic"),
+                ("a law without proof", "straight-in-parameters", "straight-in-cable-lengths"),
                 ("a function", '"pz":"pz"', '"pz":"tan(pz)"'),
                 ("a tower of powers", '"pz":"pz"', '"pz":"0*((pz^99)^99)^99"'),
                 ("not a number", '"9.81"', '"nan"'), ("not a number", '"-9.81"', '"-9,81"'),
