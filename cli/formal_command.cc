@@ -109,15 +109,18 @@ std::vector<std::string> axioms(const std::string& printed) {
 void print_theorem(const Certificate& certificate, const FinishedProgram& coq, const FormalArguments& arguments) {
   const char* const machines =
       certificate.problem.tolerances ? "machine and pose within the tolerances and every " : "";
+  const char* const held = certificate.path.interpolation == Interpolation::kCableLengths
+                               ? "there is exactly one pose in the path's tube with the path's lengths, and there, "
+                               : "";
   print_wrapped(
-      fmt::format("Checked by Coq's kernel in {:.1f} s: everywhere along the path of {}, for every {}wrench of the "
+      fmt::format("Checked by Coq's kernel in {:.1f} s: everywhere along the path of {}, {}for every {}wrench of the "
                   "load, exactly one list of tensions balances it, and all tensions and all lengths are strictly "
                   "within their limits.\n",
-                  coq.seconds, plural(certificate.path.segments(), "segment"), machines));
+                  coq.seconds, plural(certificate.path.segments(), "segment"), held, machines));
   print_wrapped(
       "This is the theorem 'feasible' at the end of the file, about the numbers at its head (docs/formal.md). It does "
-      "not say how large the margins are, that parameters stay in their ranges, or that the path leads where the query "
-      "asked.\n");
+      "not say how large the margins are, that parameters stay in their ranges, that the path leads where the query "
+      "asked, or who signed.\n");
   const std::vector<std::string> names = axioms(coq.out);
   print_wrapped(
       arguments.fast

@@ -164,6 +164,13 @@ Definition f_turn_about (N : vec form) (F : form) (v : vec form) : vec form :=
   let c := f_cos F in
   v_add (v_add (v_scale c v) (v_scale (f_sin F) (v_cross N v)))
     (v_scale (f_mul (f_sub (constant one) c) (v_dot N v)) N).
+(** Turned by the quaternion of vector part U and scalar part W. *)
+Definition f_turn_by (U : vec form) (W : form) (v : vec form) : vec form :=
+  let square := v_dot U U in
+  let two := constant (integer 2) in
+  v_scale (f_div (constant one) (f_add square (f_mul W W)))
+    (v_add (v_add (v_scale (f_sub (f_mul W W) square) v) (v_scale (f_mul two (v_dot U v)) U))
+           (v_scale (f_mul two W) (v_cross U v))).
 Definition fractions (v : vec Q) : vec interval := Vec (fraction (vx v)) (fraction (vy v)) (fraction (vz v)).
 Definition unit_form (axis : vec Q) : vec form :=
   let v := fractions axis in
@@ -419,7 +426,7 @@ Definition from_to (prec : F.precision) (l r : Q) : interval := I.join (fraction
 (** ** Motions: from enclosures of m and of all s *)
 
 Definition parameters_form : Type := interval -> interval -> nat -> form.
-Definition motion_form : Type := interval -> interval -> pose_form.
+Definition poses_form : Type := interval -> interval -> pose_form.
 
 Definition point (prec : F.precision) (u : waypoint) (i : nat) : interval :=
   let (q, h) := nth i u (0%Q, 0%Z) in add prec (fraction prec q) (mul prec (integer prec h) (I.pi prec)).
@@ -453,43 +460,149 @@ Definition between_q (v w : waypoint) : vec Q * Q :=
         (a * vz q - b * vz p - (vx p * vy q - vy p * vx q)), a * b + dot_q p q)%Q).
 Definition no_half_turns (w : waypoint) : bool := forallb (fun c => Z.eqb (snd c) 0) w.
 
-Definition f_turn_by (prec : F.precision) (w : waypoint) (v : vec form) : vec form :=
-  let u := v_rational prec (vector_q w) in
-  let k q := constant prec (fraction prec q) in
-  let a := coordinate_q w 6 in
-  let square := dot_q (vector_q w) (vector_q w) in
-  v_scale prec (constant prec (div prec (one prec) (fraction prec (square + a * a))))
-    (v_add prec (v_add prec (v_scale prec (k (a * a - square)%Q) v)
-                            (v_scale prec (f_mul prec (k 2%Q) (v_dot prec u v)) u))
-                (v_scale prec (k (2 * a)%Q) (v_cross prec u v))).
+(** Whether one geodesic leads from pose to pose. *)
+Definition turns_meet (v w : waypoint) : bool :=
+  no_half_turns v && no_half_turns w && negb (Qeq_bool (snd (between_q v w)) 0).
 
-Definition geodesic_form (prec : F.precision) (v w : waypoint) : motion_form := fun m S =>
+Definition geodesic_form (prec : F.precision) (v w : waypoint) : poses_form := fun m S =>
   let (u, c) := between_q v w in
   let angle := mul prec (integer prec 2) (I.atan prec (div prec (norm_of prec (fractions prec u)) (fraction prec c))) in
   let turn x := if is_vector u
     then f_turn_about prec (unit_form prec u) (f_mul prec (Form m S (one prec) []) (constant prec angle)) x else x in
   let x := line_form prec v w m S in
-  PoseForm (no_half_turns v && no_half_turns w && negb (Qeq_bool c 0)) (Vec (x 0%nat) (x 1%nat) (x 2%nat))
-    (columns_of prec (fun x => f_turn_by prec v (turn x))).
+  PoseForm (turns_meet v w) (Vec (x 0%nat) (x 1%nat) (x 2%nat))
+    (columns_of prec (fun x =>
+      f_turn_by prec (v_rational prec (vector_q v)) (constant prec (fraction prec (coordinate_q v 6))) (turn x))).
+
+(** ** Lengths that are held: the platform is near the chord from pose to pose *)
+
+Definition chord_form (prec : F.precision) (v w : waypoint) : poses_form := fun m S =>
+  let x := line_form prec v w m S in
+  let u := Vec (x 3%nat) (x 4%nat) (x 5%nat) in
+  PoseForm (apart0 (over (f_add prec (v_dot prec u u) (f_mul prec (x 6%nat) (x 6%nat))))) (Vec (x 0%nat) (x 1%nat) (x 2%nat))
+    (columns_of prec (f_turn_by prec u (x 6%nat))).
+
+Section Tube.
+
+Variables (prec : F.precision) (m : machine) (v w : waypoint) (x S : interval).
+
+Definition tube_reach : interval * list interval := (sub prec S x, repeat (zero prec) balls).
+Definition arm_range (c : cable) : vec form :=
+  v_tight prec tube_reach (turned prec (images (chord_form prec v w x S)) (v_rational prec (platform c))).
+Definition length_form (i : nat) : form := line_form prec v w x S (7 + i)%nat.
+
+(** Half of |d|^2 - L^2, at some coordinates in the tube. *)
+Definition half_form (d : vec form) (L : form) : form :=
+  f_mul prec (constant prec (fraction prec (1 # 2))) (f_sub prec (v_dot prec d d) (f_mul prec L L)).
+Definition scaled (q : Q) (V : vec form) : vec form := v_scale prec (constant prec (fraction prec q)) V.
+Definition start_form (z : six Q) (i : nat) (c : cable) : form :=
+  half_form (v_tight prec tube_reach (v_sub prec
+    (v_add prec
+      (v_add prec (place (chord_form prec v w x S)) (scaled (coordinate_q v 13) (v_rational prec (Vec (at1 z) (at2 z) (at3 z)))))
+      (f_turn_by prec (scaled (coordinate_q v 14) (v_rational prec (Vec (at4 z) (at5 z) (at6 z)))) (constant prec (one prec))
+        (arm_range c)))
+    (v_rational prec (base c)))) (length_form i).
+
+(** The same anywhere in the tube, for all s: its slopes are those along the tube's coordinates. *)
+Definition whole (f : form) : form := constant prec (over f).
+Definition v_whole (V : vec form) : vec form := Vec (whole (vx V)) (whole (vy V)) (whole (vz V)).
+Definition any_form (ball : nat) (unit : vec interval) : form :=
+  Form (symmetric (one prec)) (symmetric (one prec)) (zero prec) (b_only ball unit).
+Definition any_vector (ball : nat) : vec form :=
+  let i := one prec in
+  let o := zero prec in
+  Vec (any_form ball (Vec i o o)) (any_form ball (Vec o i o)) (any_form ball (Vec o o i)).
+Definition tube_form (i : nat) (c : cable) : form :=
+  half_form (v_sub prec
+    (v_add prec (v_add prec (v_whole (place (chord_form prec v w x S))) (scaled (coordinate_q v 13) (any_vector 0)))
+                (f_turn_by prec (scaled (coordinate_q v 14) (any_vector 1)) (constant prec (one prec)) (v_whole (arm_range c))))
+    (v_rational prec (base c))) (whole (length_form i)).
+Definition row_of_slopes (f : form) : six interval :=
+  let in_ball b := match nth b (slopes f) None with Some u => u | None => Vec (zero prec) (zero prec) (zero prec) end in
+  Six (vx (in_ball 0%nat)) (vy (in_ball 0%nat)) (vz (in_ball 0%nat))
+      (vx (in_ball 1%nat)) (vy (in_ball 1%nat)) (vz (in_ball 1%nat)).
+
+Definition transposed {A : Type} (M : six (six A)) : six (six A) :=
+  Six (map6 at1 M) (map6 at2 M) (map6 at3 M) (map6 at4 M) (map6 at5 M) (map6 at6 M).
+Definition indices : six nat := (Six 0 1 2 3 4 5)%nat.
+
+(** There is one pose with these lengths, and it is in this share of the tube. *)
+Definition check_tube (b : tube_box) : bool :=
+  let C := map6 (map6 (number prec (tube_scale b))) (tube_inverse b) in
+  let starts := zip6 (start_form (guess b)) indices (cables m) in
+  let A := transposed (zip6 (fun i c => row_of_slopes (tube_form i c)) indices (cables m)) in
+  let E := zip6 (fun c unit => zip6 (fun a z => sub prec (integer prec z) (sum prec (zip6 (mul prec) c a))) A unit) C units in
+  let rho := fold6 I.join (map6 (fun row => sum prec (map6 I.abs row)) E) in
+  let eta := fold6 I.join (map6 (fun c =>
+    I.abs (range prec tube_reach (f_sum prec (zip6 (fun a f => f_mul prec (constant prec a) f) c starts)))) C) in
+  every (map6 (fun i => above0 (over (length_form i))) indices) &&
+  every (map6 (fun z => Qle_bool (z + within b) (share b) && Qle_bool (within b - z) (share b)) (guess b)) &&
+  Qle_bool (share b) 1 && Z.ltb 0 (Qnum (1 - left b)) && below prec rho (fraction prec (left b)) &&
+  below prec eta (fraction prec (within b * (1 - left b))).
+
+End Tube.
+
+(** A machine whose platform may be anywhere in a share of a tube. *)
+Definition in_share (m : machine) (v : waypoint) (q : Q) : machine :=
+  Machine (cables m) (load_point m) (load m) (pose_position m) (pose_angles m)
+    (Tolerances (of_anchors (tolerance m)) (of_load_point (tolerance m)) (q * coordinate_q v 13 * (7 # 4))
+      (Number (q * coordinate_q v 14 * (7 # 2)))).
+Definition is_exact (m : machine) : bool :=
+  every (map6 (fun t => vanishes (fst t) && vanishes (snd t)) (of_anchors (tolerance m))) &&
+  vanishes (of_load_point (tolerance m)) && vanishes (of_position (tolerance m)) &&
+  is_zero_number (of_orientation (tolerance m)).
+Definition has_tube (v : waypoint) : bool :=
+  no_half_turns v && Z.ltb 0 (Qnum (coordinate_q v 13)) && Z.ltb 0 (Qnum (coordinate_q v 14)).
+
+(** Of two tubes in a row, one has to contain the other. *)
+Definition contains_tube (v w : waypoint) : bool :=
+  Qle_bool (coordinate_q w 13) (coordinate_q v 13) && Qle_bool (coordinate_q w 14) (coordinate_q v 14).
+Definition tubes_nest (v w : waypoint) : bool := contains_tube v w || contains_tube w v.
+
+(** ** A path *)
+
+Inductive motion_form := Explicit (poses : poses_form) | Held (v w : waypoint).
 
 Fixpoint motions (prec : F.precision) (m : machine) (l : law) (path : list waypoint) : list motion_form :=
   match path with
   | [] => []
   | v :: rest =>
       match l, rest with
-      | Straight, w :: _ => (fun x S => posed prec m (line_form prec v w x S)) :: motions prec m l rest
-      | Spline, b :: c :: d :: _ => (fun x S => posed prec m (spline_form prec v b c d x S)) :: motions prec m l rest
-      | Geodesic, w :: _ => geodesic_form prec v w :: motions prec m l rest
+      | Straight, w :: _ => Explicit (fun x S => posed prec m (line_form prec v w x S)) :: motions prec m l rest
+      | Spline, b :: c :: d :: _ => Explicit (fun x S => posed prec m (spline_form prec v b c d x S)) :: motions prec m l rest
+      | Geodesic, w :: _ => Explicit (geodesic_form prec v w) :: motions prec m l rest
+      | Lengths, w :: _ => Held v w :: motions prec m l rest
       | _, _ => []
       end
   end.
 
+(** What has to hold of waypoints that follow one another, for their segments to be joined. *)
+Fixpoint pairs (f : waypoint -> waypoint -> bool) (path : list waypoint) : bool :=
+  match path with v :: (w :: _) as rest => f v w && pairs f rest | _ => true end.
+Definition is_joined (l : law) (path : list waypoint) : bool :=
+  match l with Geodesic => pairs turns_meet path | Lengths => pairs tubes_nest path | _ => true end.
+
+(** The middle of a box, and all of it. *)
+Definition middle_of (prec : F.precision) (start : Q) (b : box) : interval := fraction prec (Qred ((start + upto b) * (1 # 2))).
+Definition range_of (prec : F.precision) (start : Q) (b : box) : interval :=
+  I.join (from_to prec start (upto b)) (middle_of prec start b).
+
+Definition check_poses (prec : F.precision) (c : certificate) (m : machine) (q : poses_form) (start : Q) (b : box) : bool :=
+  let x := middle_of prec start b in
+  let S := range_of prec start b in
+  check_pose prec (sub prec S x, radii prec m) m (tension_margin c) (length_margin c) b (q x S).
+
 Definition check_box (prec : F.precision) (c : certificate) (q : motion_form) (start : Q) (b : box) : bool :=
-  let middle := Qred ((start + upto b) * (1 # 2)) in
-  let m := fraction prec middle in
-  let S := I.join (from_to prec start (upto b)) m in
   Qle_bool start (upto b) &&
-  check_pose prec (sub prec S m, radii prec (subject c)) (subject c) (tension_margin c) (length_margin c) b (q m S).
+  match q, tube b with
+  | Explicit f, _ => check_poses prec c (subject c) f start b
+  | Held v w, Some h =>
+      let m := in_share (subject c) v (share h) in
+      is_exact (subject c) && has_tube v && no_half_turns w && below prec (angle_of prec m) (one prec) &&
+      check_tube prec (subject c) v w (middle_of prec start b) (range_of prec start b) h &&
+      check_poses prec c m (chord_form prec v w) start b
+  | Held _ _, None => false
+  end.
 
 (** Boxes from [start] have to reach 1; no box is no proof. *)
 Fixpoint check_boxes (prec : F.precision) (c : certificate) (q : motion_form) (start : Q) (l : list box) : bool :=
@@ -509,7 +622,7 @@ Fixpoint check_motions (prec : F.precision) (c : certificate) (l : list motion_f
 Definition check (c : certificate) : bool :=
   let prec := F.PtoP (bits c) in
   let l := motions prec (subject c) (motion c) (path c) in
-  match l with [] => false | _ => true end &&
+  match l with [] => false | _ => true end && is_joined (motion c) (path c) &&
   below prec (angle_of prec (subject c)) (one prec) && check_motions prec c l (boxes c).
 
 End Checker.

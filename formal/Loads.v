@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: GPL-3.0-or-later *)
-(** * What wrenches of a load's items can make of a row: y.w, over the real numbers; and turns about an axis
+(** * What wrenches of a load's items can make of a row: y.w, over the real numbers
 
     A row y is a pair of vectors: y.w is [fst y . force w + snd y . moment w]. *)
 

@@ -110,9 +110,6 @@ End Pose.
 
 (** The statement is about the machine exactly as stated, too: where no tolerance is negative, it is one of those built,
     and every pose one of those meant. *)
-Definition itself (m : machine) : built :=
-  Built (map6 (fun c => (real_vec (base c), real_vec (platform c))) (cables m)) (real_vec (load_point m)).
-
 Lemma itself_is_built m : (forall i, (i < 6)%nat -> 0 <= fst (nth6 (of_anchors (tolerance m)) i) /\
     0 <= snd (nth6 (of_anchors (tolerance m)) i)) -> 0 <= of_load_point (tolerance m) -> is_built m (itself m).
 Proof.

@@ -128,8 +128,12 @@ Definition pose_at (m : machine) (p : nat -> R) : pose :=
 
 (** ** Tolerances *)
 
-(** A machine as it is built: the anchors of each cable, at the base and in the platform's axes, and the load point. *)
+(** A machine as it is built: the anchors of each cable, at the base and in the platform's axes, and the load point. The
+    machine itself is exactly as stated. *)
 Record built := Built { anchors : six (vec R * vec R); load_at : vec R }.
+
+Definition itself (m : machine) : built :=
+  Built (map6 (fun c => (real_vec (base c), real_vec (platform c))) (cables m)) (real_vec (load_point m)).
 
 Definition near (distance : Q) (u : vec R) (v : vec Q) : Prop := norm (minus u (real_vec v)) <= distance.
 
@@ -230,8 +234,9 @@ Definition coordinate (w : waypoint) (i : nat) : R := let (q, h) := nth i w (0%Q
 
 (** From each waypoint to the next the path is straight in the parameters. Or its waypoints are the control points of a
     uniform cubic B-spline, which has a segment for any four in a row. Or they are poses, whatever the machine says of
-    parameters, and the path turns from each to the next about one axis. *)
-Inductive law := Straight | Spline | Geodesic.
+    parameters, and the path turns from each to the next about one axis; or else the lengths of the cables are straight,
+    and poses only say near which the platform is. *)
+Inductive law := Straight | Spline | Geodesic | Lengths.
 
 Definition on_line (v w : waypoint) (s : R) (i : nat) : R := coordinate v i + s * (coordinate w i - coordinate v i).
 Definition on_spline (a b c d : waypoint) (s : R) (i : nat) : R :=
@@ -263,22 +268,51 @@ Definition on_geodesic (v w : waypoint) (s : R) : pose :=
   Pose (Vec (on_line v w s 0) (on_line v w s 1) (on_line v w s 2))
        (fun u => turn_by (quaternion_of v) (turn_about (unit_along (vector_part q)) (s * angle) u)).
 
-(** Its segments: the poses at each s from 0 to 1. *)
-Fixpoint segments (m : machine) (l : law) (path : list waypoint) : list (R -> pose) :=
+(** Of a waypoint where lengths are straight, these come behind its pose, and then how wide the tube is that begins there,
+    around poses whose positions and quaternions are straight: by how much each coordinate of the position may be off, and
+    each of the vector part of a quaternion with the scalar part 1. In the tube, the platform is at the pose at which the
+    cables of the machine itself have these lengths. *)
+Definition on_chord (v w : waypoint) (s : R) : pose :=
+  let x := on_line v w s in
+  Pose (Vec (x 0) (x 1) (x 2))%nat (turn_by (Quaternion (Vec (x 3) (x 4) (x 5)) (x 6)))%nat.
+
+Definition in_unit_box (v : vec R) : Prop := Rabs (vx v) <= 1 /\ Rabs (vy v) <= 1 /\ Rabs (vz v) <= 1.
+Definition in_tube (v : waypoint) (P P' : pose) : Prop :=
+  exists y z : vec R, in_unit_box y /\ in_unit_box z /\
+    P' = Pose (plus (position P) (times (coordinate v 13) y))
+              (fun u => turn_by (Quaternion (times (coordinate v 14) z) 1) (turn P u)).
+
+Definition has_lengths (m : machine) (l : six R) (P : pose) : Prop :=
+  all6 (zip6 (fun a x => cable_length P a = x) (anchors (itself m)) l).
+Definition held (m : machine) (v w : waypoint) (s : R) (P : pose) : Prop :=
+  in_tube v (on_chord v w s) P /\ has_lengths m (map6 (on_line v w s) (Six 7 8 9 10 11 12)%nat) P.
+
+(** Its segments: for each s from 0 to 1, where the platform is meant to be. *)
+Fixpoint segments (m : machine) (l : law) (path : list waypoint) : list (R -> pose -> Prop) :=
   match path with
   | nil => nil
   | v :: rest =>
       match l, rest with
-      | Straight, w :: _ => (fun s => pose_at m (on_line v w s)) :: segments m l rest
-      | Spline, b :: c :: d :: _ => (fun s => pose_at m (on_spline v b c d s)) :: segments m l rest
-      | Geodesic, w :: _ => on_geodesic v w :: segments m l rest
+      | Straight, w :: _ => (fun s => eq (pose_at m (on_line v w s))) :: segments m l rest
+      | Spline, b :: c :: d :: _ => (fun s => eq (pose_at m (on_spline v b c d s))) :: segments m l rest
+      | Geodesic, w :: _ => (fun s => eq (on_geodesic v w s)) :: segments m l rest
+      | Lengths, w :: _ => held m v w :: segments m l rest
       | _, _ => nil
       end
   end.
 
-(** There is a segment, and all poses of all segments are feasible, of every machine within its tolerances. *)
+(** Each ends where the next begins. *)
+Fixpoint joined (l : list (R -> pose -> Prop)) : Prop :=
+  match l with
+  | motion :: (next :: _) as rest => (forall P, motion 1 P -> next 0 P) /\ joined rest
+  | _ => True
+  end.
+
+(** There is a segment; everywhere on each, there is exactly one pose at which the platform is meant to be; and it is
+    feasible for every machine, and at every pose, within the tolerances. *)
 Definition wrench_feasible (m : machine) (l : law) (path : list waypoint) (tension_margin length_margin : Q) : Prop :=
-  segments m l path <> nil /\
-  Forall (fun motion : R -> pose => forall s, 0 <= s <= 1 ->
-    forall b P, is_built m b -> is_tracked m (motion s) P ->
-    feasible_at m b tension_margin length_margin P) (segments m l path).
+  segments m l path <> nil /\ joined (segments m l path) /\
+  Forall (fun motion : R -> pose -> Prop => forall s, 0 <= s <= 1 ->
+    exists P, motion s P /\ (forall P', motion s P' -> P' = P) /\
+    forall b P', is_built m b -> is_tracked m P P' -> feasible_at m b tension_margin length_margin P')
+    (segments m l path).

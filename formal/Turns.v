@@ -118,6 +118,11 @@ Proof.
   unfold combination. revert v u x y z. by_coordinates.
 Qed.
 
+Lemma turn_by_of_units q u : turn_by q u = combination u (turn_by q unit_x) (turn_by q unit_y) (turn_by q unit_z).
+Proof.
+  rewrite <- turn_by_is_linear. f_equal. unfold combination, unit_x, unit_y, unit_z. revert u. by_coordinates.
+Qed.
+
 Definition square (q : quaternion) : R := dot (vector_part q) (vector_part q) + scalar_part q * scalar_part q.
 
 Lemma turn_by_keeps_dot q u w : square q <> 0 -> dot (turn_by q u) (turn_by q w) = dot u w.

@@ -10,6 +10,7 @@
 
 #include "base/input_error.h"
 #include "checker/format/claims.h"
+#include "formal/held_poses.h"
 #include "problem/decimal.h"
 #include "problem/expression.h"
 #include "problem/rational.h"
@@ -37,6 +38,8 @@ std::string number(const RationalText& stated) {
   if (slash != std::string::npos) return fmt::format("({} # {})", text.substr(0, slash), text.substr(slash + 1));
   return text.starts_with("-") ? "(" + text + ")" : text;
 }
+
+std::string fraction(const Rational& x) { return fmt::format("{} # {}", numerator(x).str(), denominator(x).str()); }
 
 std::string hex(double x) {
   const std::string text = hex_float(x);
@@ -232,6 +235,7 @@ std::string machine_text(const Problem& stated) {
 
 std::string law_text(Interpolation law) {
   if (law == Interpolation::kGeodesic) return "Geodesic";
+  if (law == Interpolation::kCableLengths) return "Lengths";
   return law == Interpolation::kStraight ? "Straight" : "Spline";
 }
 
@@ -244,11 +248,51 @@ std::string waypoint_text(const Waypoint& waypoint) {
   return fmt::format("[{}]", fmt::join(coordinates, "; "));
 }
 
+std::string waypoint_text(const HeldPose& pose) {
+  std::vector<std::string> coordinates;
+  for (const double x : pose.pose) coordinates.push_back(hex(x));
+  for (const Rational& x : pose.lengths) coordinates.push_back(fmt::format("({})", fraction(x)));
+  for (const double x : {pose.tube.position, pose.tube.turn}) coordinates.push_back(hex(x));
+  for (std::string& x : coordinates) x = fmt::format("({}, 0%Z)", x);
+  return fmt::format("[{}]", fmt::join(coordinates, "; "));
+}
+
+std::vector<std::string> waypoint_texts(const Path& path) {
+  std::vector<std::string> texts;
+  if (path.interpolation == Interpolation::kCableLengths) {
+    for (const HeldPose& pose : held_poses(path)) texts.push_back(waypoint_text(pose));
+  } else {
+    for (const Waypoint& waypoint : path.waypoints) texts.push_back(waypoint_text(waypoint));
+  }
+  return texts;
+}
+
+std::string coordinate_names(const Certificate& certificate) {
+  switch (certificate.path.interpolation) {
+    case Interpolation::kGeodesic: return "px, py, pz, qx, qy, qz, qw";
+    case Interpolation::kCableLengths: return "px, py, pz, qx, qy, qz, qw, six lengths, the tube's two sizes";
+    default: break;
+  }
+  std::vector<std::string> names;
+  for (const Parameter& parameter : certificate.problem.space.parameters) names.push_back(parameter.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string tube_text(const std::optional<TubeBox>& tube) {
+  if (!tube) return "None";
+  std::string text = fmt::format("(Some (TubeBox {} (Six", tube->scale);
+  for (const auto& row : tube->inverse) text += "\n       " + six(row);
+  const auto share = [](long n) { return fmt::format("({} # {})", n, 1L << kTubeBits); };
+  text += fmt::format(")%Z {} (Six", share(tube->left));
+  for (const long n : tube->guess) text += " " + share(n);
+  return text + fmt::format(") {} {}))", share(tube->within), share(tube->share));
+}
+
 std::string box_text(const Box& box) {
   const long end = box.index + 1;
   std::string text = fmt::format("Box ({} # {}) {} (Six", end, 1L << box.depth, box.scale);
   for (const auto& row : box.inverse) text += "\n       " + six(row);
-  return text + fmt::format(")%Z\n       {}%Z", six(box.densities));
+  return text + fmt::format(")%Z\n       {}%Z {}", six(box.densities), tube_text(box.tube));
 }
 
 std::string boxes_text(const std::vector<std::vector<Box>>& boxes) {
@@ -266,7 +310,8 @@ std::string boxes_text(const std::vector<std::vector<Box>>& boxes) {
 void require_in_scope(const Certificate& certificate) {
   const Problem& problem = certificate.problem;
   const Interpolation law = certificate.path.interpolation;
-  if (law == Interpolation::kCableLengths) refuse(fmt::format("a path that is {}", interpolation_name(law)));
+  if (law == Interpolation::kCableLengths && problem.tolerances)
+    refuse("a machine controlled by its cables' lengths, with tolerances");
   if (certificate.path.segments() == 0) refuse("a path of a single waypoint");
   if (problem.tolerances && problem.tolerances->cable_length_m) refuse("a machine controlled by its cables' lengths");
   if (problem.bodies) refuse("bodies");
@@ -280,12 +325,7 @@ void require_in_scope(const Certificate& certificate) {
 
 std::string coq_file(const Certificate& certificate, const std::string& sha256,
                      const std::vector<std::vector<Box>>& boxes, Instance instance) {
-  std::vector<std::string> waypoints;
-  for (const Waypoint& waypoint : certificate.path.waypoints) waypoints.push_back(waypoint_text(waypoint));
   const Problem stated = stated_part(certificate.problem);
-  std::vector<std::string> names;
-  for (const Parameter& parameter : stated.space.parameters) names.push_back(parameter.name);
-  if (certificate.path.interpolation == Interpolation::kGeodesic) names = {"px", "py", "pz", "qx", "qy", "qz", "qw"};
   return fmt::format(
       "(* Written by taut formal from the certificate with the SHA-256 {}.\n"
       "   The theorem is at the end; its terms are defined in Statement.v. A waypoint's coordinates are: {}.\n"
@@ -305,9 +345,9 @@ std::string coq_file(const Certificate& certificate, const std::string& sha256,
       "Theorem feasible : statement cert.\n"
       "Proof. apply {}.check_sound. vm_cast_no_check (eq_refl true). Qed.\n"
       "Print Assumptions feasible.\n",
-      sha256, fmt::join(names, ", "), machine_text(stated), law_text(certificate.path.interpolation),
-      fmt::join(waypoints, ";\n           "), bits(certificate.problem), boxes_text(boxes),
-      instance == Instance::kExact ? "Exact" : "Fast");
+      sha256, coordinate_names(certificate), machine_text(stated), law_text(certificate.path.interpolation),
+      fmt::join(waypoint_texts(certificate.path), ";\n           "), bits(certificate.problem, certificate.path),
+      boxes_text(boxes), instance == Instance::kExact ? "Exact" : "Fast");
 }
 
 std::string boxes_file(const Certificate& certificate, const std::vector<std::vector<Box>>& boxes) {
@@ -319,10 +359,18 @@ std::string boxes_file(const Certificate& certificate, const std::vector<std::ve
                       {"scale", box.scale},
                       {"inverse", box.inverse},
                       {"densities", box.densities}});
+      if (box.tube) {
+        const auto share = [](long n) { return fmt::format("{}/{}", n, 1L << kTubeBits); };
+        std::vector<std::string> guess;
+        for (const long n : box.tube->guess) guess.push_back(share(n));
+        list.back()["tube"] = {{"scale", box.tube->scale},          {"inverse", box.tube->inverse},
+                               {"left", share(box.tube->left)},     {"guess", guess},
+                               {"within", share(box.tube->within)}, {"share", share(box.tube->share)}};
+      }
     }
     all.push_back(std::move(list));
   }
-  return nlohmann::json{{"bits", bits(certificate.problem)}, {"boxes", std::move(all)}}.dump() + "\n";
+  return nlohmann::json{{"bits", bits(certificate.problem, certificate.path)}, {"boxes", std::move(all)}}.dump() + "\n";
 }
 
 }  // namespace taut::formal

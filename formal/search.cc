@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "base/input_error.h"
+#include "formal/held_poses.h"
 #include "formal/load.h"
 #include "formal/slope.h"
 #include "problem/expression.h"
@@ -34,7 +36,7 @@ struct Machine {
   std::array<std::array<Interval, 2>, 6> tension, length;
 };
 
-/// The expressions of in_scope() on slopes.
+/// The expressions that require_in_scope() allows, on slopes.
 std::vector<Slope> evaluate(const ExpressionTape& tape, const std::vector<Slope>& parameters) {
   std::vector<Slope> slots;
   for (const Instruction& step : tape.instructions()) {
@@ -140,6 +142,39 @@ Columns rotation(const AnglesText& stated, const std::vector<Slope>& pose) {
   });
 }
 
+/// So that quaternions of any length can be brought near to 1.
+int largest_exponent(std::span<const double> q) {
+  double largest = 0;
+  for (const double x : q) largest = std::max(largest, std::abs(x));
+  return largest > 0 ? std::ilogb(largest) : 0;
+}
+
+/// Turned by the quaternion with vector part u and scalar part w, of any length.
+class QuaternionTurn {
+ public:
+  QuaternionTurn(const Vector& u, const Slope& w) : u_(u) {
+    const Slope square = dot(u, u);
+    inverse_ = Slope(Interval(1.0)) / (square + w * w);
+    straight_ = w * w - square;
+    twice_ = Slope(Interval(2.0)) * w;
+  }
+  [[nodiscard]] Vector operator()(const Vector& v) const {
+    const Slope along = Slope(Interval(2.0)) * dot(u_, v);
+    const Vector across = cross(u_, v);
+    Vector result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      result[i] = inverse_ * (straight_ * v[i] + along * u_[i] + twice_ * across[i]);
+    }
+    return result;
+  }
+
+ private:
+  Vector u_;
+  Slope inverse_, straight_, twice_;
+};
+
+Slope on_line(Interval begin, Interval end, const Slope& s) { return Slope(begin) + s * Slope(end - begin); }
+
 /// From one pose to another: R_0, and then a turn about an axis. In exact numbers, so that how small a turn is does not
 /// matter.
 class Geodesic {
@@ -149,22 +184,21 @@ class Geodesic {
     std::array<std::array<Rational, 4>, 2> q;
     for (std::size_t end = 0; end < 2; ++end) {
       const std::vector<double>& x = segment.control[end]->x;
-      for (std::size_t i = 0; i < 4; ++i) q[end][i] = Rational(x[3 + i]);
+      const int exponent = largest_exponent(std::span(x).subspan(3, 4));
+      for (std::size_t i = 0; i < 4; ++i) q[end][i] = Rational(std::ldexp(x[3 + i], -exponent));
       for (std::size_t i = 0; i < 3; ++i) position_[end][i] = Slope(Interval(x[i]));
     }
     const auto& [p, r] = q;
     std::array<Interval, 3> vector;
+    Vector u;
     for (std::size_t x = 0; x < 3; ++x) {
       const std::size_t y = (x + 1) % 3, z = (x + 2) % 3;
       const Rational part = p[3] * r[x] - r[3] * p[x] - (p[y] * r[z] - p[z] * r[y]);
       turns_ = turns_ || part != 0;
       vector[x] = nearly(part);
-      u_[x] = Slope(nearly(p[x]));
+      u[x] = Slope(nearly(p[x]));
     }
-    const Rational square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
-    inverse_ = Slope(Interval(1.0) / nearly(square + p[3] * p[3]));
-    straight_ = Slope(nearly(p[3] * p[3] - square));
-    twice_ = Slope(nearly(2 * p[3]));
+    first_.emplace(u, Slope(nearly(p[3])));
     if (!turns_) return;
     axis_ = unit_along(vector);
     angle_ = Interval(2.0) * atan(norm(vector) / nearly(p[3] * r[3] + p[0] * r[0] + p[1] * r[1] + p[2] * r[2]));
@@ -177,27 +211,53 @@ class Geodesic {
   }
   [[nodiscard]] Columns columns(const Slope& s) const {
     const SinCos<Slope> angle = sincos(s * Slope(angle_));
-    return images([&](const Vector& v) { return first(turns_ ? turned_about(axis_, angle, v) : v); });
+    return images([&](const Vector& v) { return (*first_)(turns_ ? turned_about(axis_, angle, v) : v); });
   }
 
  private:
-  /// R_0 v.
-  [[nodiscard]] Vector first(const Vector& v) const {
-    const Slope along = Slope(Interval(2.0)) * dot(u_, v);
-    const Vector across = cross(u_, v);
-    Vector result;
-    for (std::size_t i = 0; i < 3; ++i) {
-      result[i] = inverse_ * (straight_ * v[i] + along * u_[i] + twice_ * across[i]);
-    }
-    return result;
-  }
-
   std::array<Vector, 2> position_;
-  Vector u_, axis_;
-  Slope inverse_, straight_, twice_;
+  std::optional<QuaternionTurn> first_;  ///< R_0
+  Vector axis_;
   Interval angle_{0.0};
   bool turns_ = false;
 };
+
+/// Straight from pose to pose, and in lengths.
+struct Chord {
+  const HeldPose &begin, &end;
+
+  [[nodiscard]] Slope coordinate(std::size_t j, const Slope& s) const {
+    const int exponent = j < 3 ? 0
+                               : std::max(largest_exponent(std::span(begin.pose).last(4)),
+                                          largest_exponent(std::span(end.pose).last(4)));
+    return on_line(Interval(std::ldexp(begin.pose[j], -exponent)), Interval(std::ldexp(end.pose[j], -exponent)), s);
+  }
+  [[nodiscard]] Vector position(const Slope& s) const { return {coordinate(0, s), coordinate(1, s), coordinate(2, s)}; }
+  [[nodiscard]] Columns columns(const Slope& s) const {
+    return images(QuaternionTurn({coordinate(3, s), coordinate(4, s), coordinate(5, s)}, coordinate(6, s)));
+  }
+  [[nodiscard]] Slope length(std::size_t i, const Slope& s) const {
+    return on_line(nearly(begin.lengths[i]), nearly(end.lengths[i]), s);
+  }
+};
+
+/// Half of |d|^2 - L^2.
+Slope excess(const Vector& d, const Slope& length) { return Slope(Interval(0.5)) * (dot(d, d) - length * length); }
+
+/// Anywhere on the box.
+Slope whole(const Slope& f) { return Slope(f.over); }
+Vector whole(const Vector& v) { return {whole(v[0]), whole(v[1]), whole(v[2])}; }
+
+/// Any vector of coordinates from -1 to 1 times a size.
+Vector any_vector(std::size_t ball, double size) {
+  Vector v;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Slopes::Block unit = kZeros;
+    unit[i] = Interval(1.0);
+    v[i] = Slope(Interval(size)) * Slope(Interval(-1.0, 1.0), Interval(-1.0, 1.0), Interval(0.0), Slopes(ball, unit));
+  }
+  return v;
+}
 
 bool invert(Matrix a, Matrix& inverse) {
   inverse = {};
@@ -225,6 +285,31 @@ bool invert(Matrix a, Matrix& inverse) {
   return true;
 }
 
+/// An inverse of the matrix, in whole numbers of about twenty bits of its smallest row. @return their scale; none if
+/// there is no inverse
+std::optional<int> whole_inverse(const Matrix& matrix, std::array<std::array<long, 6>, 6>& numbers) {
+  Matrix inverse{};
+  if (!invert(matrix, inverse)) return std::nullopt;
+  double smallest = HUGE_VAL;
+  for (const auto& row : inverse) {
+    double largest = 0;
+    for (const double x : row) largest = std::max(largest, std::abs(x));
+    smallest = std::min(smallest, largest);
+  }
+  if (!(smallest > 0 && smallest < HUGE_VAL)) return std::nullopt;
+  const int scale = std::clamp(kFigures - std::ilogb(smallest), 1, 60);
+  const double unit = std::ldexp(1.0, scale);
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      if (!(std::abs(inverse[i][j]) * unit < 1e18)) return std::nullopt;
+      numbers[i][j] = std::lrint(inverse[i][j] * unit);
+    }
+  }
+  return scale;
+}
+
+const Segment kNoSegment;
+
 /// One segment's search.
 class Judge {
  public:
@@ -232,21 +317,115 @@ class Judge {
       : problem_(problem), tape_(tape), segment_(segment), machine_(machine) {
     if (segment.law == Interpolation::kGeodesic) geodesic_.emplace(segment);
   }
+  /// Where lengths are held.
+  Judge(const Problem& problem, const Machine& machine, const ExpressionTape& tape, const HeldPose& begin,
+        const HeldPose& end)
+      : problem_(problem), tape_(tape), segment_(kNoSegment), machine_(machine), chord_(Chord{begin, end}) {}
 
   /// Sets the numbers of a box; whether Coq will accept it. Under run_upward().
   bool judge(Box& box) {
     const double width = std::ldexp(1.0, -box.depth);
     const double begin = static_cast<double>(box.index) * width;
     reach_ = {Interval(-width / 2, width / 2), machine_.radii};
-    place(Interval(begin, begin + width), Interval(begin + width / 2));
+    const Slope at(Interval(begin + width / 2), Interval(begin, begin + width), Interval(1.0));
+    if (chord_ && !holds_lengths(at, box.tube.emplace())) return false;
+    place(at);
     return choose(box) && contracts(box) && is_inside(box);
   }
 
  private:
-  void place(Interval s, Interval middle) {
-    const Slope at(middle, s, Interval(1.0));
+  /// Sets the numbers by which there is one pose with these lengths in the tube, and how far it may be from the chord.
+  bool holds_lengths(const Slope& at, TubeBox& tube) {
+    const HeldPose& stated = chord_->begin;
+    const Columns columns = chord_->columns(at);
+    const Vector position = chord_->position(at);
+    std::array<Vector, 6> arms;
+    std::array<Slope, 6> lengths;
+    std::array<std::array<Interval, 6>, 6> derivative;
+    Matrix middle{};
+    const QuaternionTurn anyhow(any_vector(kTurn, stated.tube.turn), Slope(Interval(1.0)));
+    const Vector anywhere = whole(position) + any_vector(kPosition, stated.tube.position);
+    for (std::size_t i = 0; i < 6; ++i) {
+      arms[i] = tight(image(columns, machine_.platform[i]), reach_);
+      lengths[i] = chord_->length(i, at);
+      const Slope changed = excess(anywhere + anyhow(whole(arms[i])) - machine_.base[i], whole(lengths[i]));
+      for (std::size_t j = 0; j < 6; ++j) {
+        const auto& block = changed.slopes[j < 3 ? kPosition : kTurn];
+        derivative[i][j] = block ? (*block)[j % 3] : Interval(0.0);
+        middle[i][j] = midpoint_approx(derivative[i][j]);
+      }
+    }
+    const std::optional<int> scale = whole_inverse(middle, tube.inverse);
+    if (!scale) return false;
+    tube.scale = *scale;
+    const auto inverse = [&](std::size_t k, std::size_t i) {
+      return Interval(std::ldexp(static_cast<double>(tube.inverse[k][i]), -tube.scale));
+    };
+    double norm = 0;
+    for (std::size_t k = 0; k < 6; ++k) {
+      double sum = 0;
+      for (std::size_t j = 0; j < 6; ++j) {
+        Interval entry(k == j ? 1.0 : 0.0);
+        for (std::size_t i = 0; i < 6; ++i) entry -= inverse(k, i) * derivative[i][j];
+        sum += magnitude(entry);
+      }
+      norm = std::max(norm, sum);
+    }
+    // C times half of |d|^2 - L^2 at a guess.
+    const auto steps = [&] {
+      const auto scaled = [&](std::size_t first, double size) {
+        Vector u;
+        for (std::size_t i = 0; i < 3; ++i) u[i] = Slope(Interval(size) * share(tube.guess[first + i]));
+        return u;
+      };
+      const QuaternionTurn turn(scaled(3, stated.tube.turn), Slope(Interval(1.0)));
+      const Vector at_guess = position + scaled(0, stated.tube.position);
+      std::array<Slope, 6> moved;
+      for (std::size_t i = 0; i < 6; ++i) {
+        const Slope left = excess(tight(at_guess + turn(arms[i]) - machine_.base[i], reach_), lengths[i]);
+        for (std::size_t k = 0; k < 6; ++k) moved[k] = moved[k] + Slope(inverse(k, i)) * left;
+      }
+      return moved;
+    };
+    std::array<Slope, 6> moved = steps();
+    constexpr int kNewtonSteps = 3;
+    for (int round = 0; round < kNewtonSteps; ++round) {
+      for (std::size_t k = 0; k < 6; ++k) {
+        const double step = std::ldexp(midpoint_approx(moved[k].mid), kTubeBits);
+        if (!(std::abs(step) < kOne)) return false;
+        tube.guess[k] = std::clamp(tube.guess[k] - std::lrint(step), -kOne, kOne);
+      }
+      moved = steps();
+    }
+    double farthest = 0;
+    long largest = 0;
+    for (std::size_t k = 0; k < 6; ++k) {
+      farthest = std::max(farthest, magnitude(tight(moved[k], reach_).over));
+      largest = std::max(largest, std::abs(tube.guess[k]));
+    }
+    // Coq may compute with few bits: a little more costs little.
+    constexpr double kLittle = 2e-3, kAmple = 1.25;
+    const double left = norm + kLittle;
+    if (!(left < 1)) return false;
+    const double within = farthest / (1 - left) * kAmple + kLittle;
+    if (!(within < 1)) return false;
+    tube.left = std::lrint(std::ceil(std::ldexp(left, kTubeBits)));
+    tube.within = std::lrint(std::ceil(std::ldexp(within, kTubeBits)));
+    tube.share = largest + tube.within;
+    if (tube.left >= kOne || tube.share > kOne) return false;
+    reach_.radii[kPosition] = share(tube.share) * Interval(stated.tube.position) * Interval(1.75);
+    reach_.radii[kTurn] = share(tube.share) * Interval(stated.tube.turn) * Interval(3.5);
+    return reach_.radii[kTurn].upper() < 1;
+  }
+  static constexpr long kOne = 1L << kTubeBits;
+  static Interval share(long n) { return Interval(std::ldexp(static_cast<double>(n), -kTubeBits)); }
+
+  void place(const Slope& at) {
     Vector position;
-    if (geodesic_) {
+    if (chord_) {
+      position = chord_->position(at);
+      columns_ = chord_->columns(at);
+    } else if (geodesic_) {
       position = geodesic_->position(at);
       columns_ = geodesic_->columns(at);
     } else {
@@ -254,8 +433,8 @@ class Judge {
       position = {pose[0], pose[1], pose[2]};
       columns_ = rotation(problem_.space.angles, pose);
     }
-    for (Vector& column : columns_) column = turned(machine_.radii[kTurn], column);
-    position = within(kPosition, machine_.radii[kPosition], position);
+    for (Vector& column : columns_) column = turned(reach_.radii[kTurn], column);
+    position = within(kPosition, reach_.radii[kPosition], position);
     for (std::size_t i = 0; i < 6; ++i) {
       const Vector d = tight(position + image(columns_, machine_.platform[i]) - machine_.base[i], reach_);
       const Vector moment = cross(tight(image(columns_, machine_.lever[i]), reach_), d);
@@ -278,29 +457,16 @@ class Judge {
     return result;
   }
 
-  /// C and x0, rounded to about twenty bits of the smallest row of C.
+  /// C and x0.
   bool choose(Box& box) {
     Matrix middle{};
-    Matrix inverse{};
     for (std::size_t i = 0; i < 6; ++i) {
       for (std::size_t j = 0; j < 6; ++j) middle[i][j] = midpoint_approx(d_[i][j].mid);
     }
-    if (!invert(middle, inverse)) return false;
-    double smallest = HUGE_VAL;
-    for (const auto& row : inverse) {
-      double largest = 0;
-      for (const double x : row) largest = std::max(largest, std::abs(x));
-      smallest = std::min(smallest, largest);
-    }
-    if (!(smallest > 0 && smallest < HUGE_VAL)) return false;
-    box.scale = std::clamp(kFigures - std::ilogb(smallest), 1, 60);
+    const std::optional<int> scale = whole_inverse(middle, box.inverse);
+    if (!scale) return false;
+    box.scale = *scale;
     const double unit = std::ldexp(1.0, box.scale);
-    for (std::size_t i = 0; i < 6; ++i) {
-      for (std::size_t j = 0; j < 6; ++j) {
-        if (!(std::abs(inverse[i][j]) * unit < 1e18)) return false;
-        box.inverse[i][j] = std::lrint(inverse[i][j] * unit);
-      }
-    }
     unit_ = std::ldexp(1.0, -box.scale);
     for (std::size_t i = 0; i < 6; ++i) {
       parts_[i] = machine_.load.part(row(box, i), columns_, reach_);
@@ -380,6 +546,7 @@ class Judge {
   const Segment& segment_;
   const Machine& machine_;
   std::optional<Geodesic> geodesic_;
+  std::optional<Chord> chord_;
   Reach reach_;
   Columns columns_;            ///< of the rotation
   std::array<Part, 6> parts_;  ///< what the load makes of each row of C
@@ -392,7 +559,7 @@ class Judge {
 
 }  // namespace
 
-int bits(const Problem& problem) {
+int bits(const Problem& problem, const Path& path) {
   double largest = 0, shortest = HUGE_VAL;
   for (std::size_t i = 0; i < 6; ++i) {
     for (const DecimalText& x : problem.robot.base_anchors_m[i]) {
@@ -402,7 +569,18 @@ int bits(const Problem& problem) {
   }
   constexpr int kUsual = 30, kSpareBits = 4, kMost = 200;
   const double ratio = largest / std::max(shortest, 1e-3);
-  return ratio > 1 ? std::clamp(kUsual + std::ilogb(ratio) - kSpareBits, kUsual, kMost) : kUsual;
+  const int found = ratio > 1 ? kUsual + std::ilogb(ratio) - kSpareBits : kUsual;
+  double tube = HUGE_VAL, longest = 0;
+  if (path.interpolation == Interpolation::kCableLengths) {
+    const std::vector<HeldPose> poses = held_poses(path);
+    for (const HeldPose& pose : std::span(poses).first(poses.size() - 1)) {
+      tube = std::min({tube, pose.tube.position, pose.tube.turn});
+      for (const Rational& length : pose.lengths) longest = std::max(longest, length.convert_to<double>());
+    }
+  }
+  constexpr int kBitsOfTube = 24;
+  const int for_tube = tube < HUGE_VAL ? std::ilogb(longest / tube) + kBitsOfTube : kUsual;
+  return std::clamp(std::max(found, for_tube), kUsual, kMost);
 }
 
 std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certificate, const SearchProgress& progress,
@@ -425,18 +603,22 @@ std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certi
   }
   std::vector<std::vector<Box>> all;
   std::size_t count = 0;
-  for (std::size_t k = 0; k < certificate.path.segments(); ++k) {
-    const Segment segment = certificate.path.segment(k);
+  const bool is_held = certificate.path.interpolation == Interpolation::kCableLengths;
+  const std::vector<HeldPose> poses = is_held ? held_poses(certificate.path) : std::vector<HeldPose>{};
+  const std::size_t motions = is_held ? poses.size() - 1 : certificate.path.segments();
+  for (std::size_t k = 0; k < motions; ++k) {
+    const Segment segment = is_held ? kNoSegment : certificate.path.segment(k);
     std::optional<Judge> judge;
     std::vector<Box> open{Box{}};
     all.emplace_back();
     while (!open.empty()) {
       if (stop.stop_requested()) return std::nullopt;
-      progress(k, certificate.path.segments(), count);
+      progress(k, motions, count);
       Box box = open.back();
       open.pop_back();
       bool accepted = false;
       const bool is_valid = run_upward([&] {
+        if (!judge && is_held) judge.emplace(problem, made, tape, poses[k], poses[k + 1]);
         if (!judge) judge.emplace(problem, made, tape, segment);
         Faults<Interval>::clear();
         accepted = judge->judge(box);
@@ -450,7 +632,7 @@ std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certi
         throw InputError(fmt::format(
             "segment {}: got a place near s = {:.6f} where even a box of 2^-{} is too large "
             "for Coq's arithmetic, expected more room{}",
-            k + 1, std::ldexp(static_cast<double>(box.index), -box.depth), kMostDepth,
+            (is_held ? poses[k].segment : k) + 1, std::ldexp(static_cast<double>(box.index), -box.depth), kMostDepth,
             problem.tolerances ? " (within tolerances Coq needs more of it than taut: docs/formal.md)" : ""));
       }
       open.push_back(Box{box.depth + 1, 2 * box.index + 1});

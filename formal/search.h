@@ -15,6 +15,18 @@
 
 namespace taut::formal {
 
+/// Where lengths are held: nearly the inverse of the derivative of half the lengths' squares by the tube's coordinates;
+/// how much is left of an error after a step of Newton's method with it; coordinates near which the platform is, and
+/// within what; and the share of the tube in which that is. All but the inverse times 2^-10.
+struct TubeBox {
+  int scale = 0;
+  std::array<std::array<long, 6>, 6> inverse{};
+  long left = 0;
+  std::array<long, 6> guess{};
+  long within = 0, share = 0;
+};
+inline constexpr int kTubeBits = 10;
+
 /// [k, k + 1] / 2^depth of a segment, with integers times 2^-scale.
 struct Box {
   int depth = 0;
@@ -22,16 +34,18 @@ struct Box {
   int scale = 0;
   std::array<std::array<long, 6>, 6> inverse{};  ///< nearly D^-1 in the middle, by rows
   std::array<long, 6> densities{};               ///< nearly D^-1 w0 there
+  std::optional<TubeBox> tube{};
 };
 
-/// With how many bits Coq has to compute: more where coordinates are large, as those of a site are.
-[[nodiscard]] int bits(const Problem& problem);
+/// With how many bits Coq has to compute: more where coordinates are large, as those of a site are, and tubes thin.
+[[nodiscard]] int bits(const Problem& problem, const Path& path);
 
 /// @param done  segments that are finished
 using SearchProgress = std::function<void(std::size_t done, std::size_t all, std::size_t boxes)>;
 
-/// One list of boxes a segment, which cover it in order; nothing where somebody asked to stop.
-/// @pre in_scope(certificate)
+/// One list of boxes a segment, or a pair of held_poses(), which cover it in order. Nothing where somebody asked to
+/// stop.
+/// @pre require_in_scope(certificate)
 /// @throws InputError where a box of 2^-20 of a segment is still too large.
 [[nodiscard]] std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certificate,
                                                                       const SearchProgress& progress,

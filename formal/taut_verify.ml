@@ -90,6 +90,7 @@ let rational place s =
         let d = span is_digit s c in
         if d = c || d < n || d - c > 4 then bad ();
         let e = int_of_string ("0u" ^ String.sub s c (d - c)) in
+        if e > 1000 then bad ();
         if s.[b + 1] = '-' then -e else e
       end in
     power_of (Int.of_int 10) (exponent - String.length part) (signed (Int.of_string (whole_part ^ part)))
@@ -356,15 +357,54 @@ let space json =
 let waypoint count json =
   let place = "path.waypoints" in
   let f = fields place [ "x"; "half_turns" ] json in
-  List.map2 (fun x h -> (binary64 place (text place x), whole place h))
+  let turns json =
+    let n = whole place json in
+    if not (Int.fits_int n) then refuse place "too many half turns";
+    n in
+  List.map2 (fun x h -> (binary64 place (text place x), turns h))
     (elements place ~count (get "x" f)) (elements place ~count (get "half_turns" f))
+
+let numbers place key count f = List.map (fun x -> binary64 place (text place x)) (elements place ~count (get key f))
+let no_half_turns = List.map (fun x -> (x, Int.zero))
 
 (* Of a geodesic. *)
 let pose json =
   let place = "path.waypoints" in
   let f = fields place [ "position"; "quaternion" ] json in
-  let numbers key count = List.map (fun x -> (binary64 place (text place x), Int.zero)) (elements place ~count (get key f)) in
-  numbers "position" 3 @ numbers "quaternion" 4
+  no_half_turns (numbers place "position" 3 f @ numbers place "quaternion" 4 f)
+
+(* Where lengths are straight: waypoints and the inner poses between them, each with its lengths, which are those of the
+   segment there, and the tube that begins there. *)
+let held waypoints tubes =
+  let place = "path" in
+  let add x y = fraction (Int.add (Int.mul x.qnum y.qden) (Int.mul y.qnum x.qden)) (Int.mul x.qden y.qden) in
+  let mul x y = fraction (Int.mul x.qnum y.qnum) (Int.mul x.qden y.qden) in
+  let between s x y = add x (mul s (add y (fraction (Int.neg x.qnum) x.qden))) in
+  let waypoint json =
+    let f = fields place [ "position"; "quaternion"; "lengths" ] json in
+    (numbers place "position" 3 f @ numbers place "quaternion" 4 f, numbers place "lengths" 6 f) in
+  let tube_of l = List.map (fun k -> binary64 place (text place (get k l))) [ "position"; "turn" ] in
+  let dyadic json =
+    let x = number place json in
+    if Int.sign x.qnum <= 0 || Int.geq x.qnum x.qden then refuse place "a place that is not between 0 and 1";
+    x in
+  let segment (pose, first) (_, last) json =
+    let f = fields place [ "position"; "turn" ] ~optional:[ "inner" ] json in
+    let inner json =
+      let f = fields place [ "position"; "quaternion"; "s"; "tube" ] json in
+      (dyadic (get "s" f), numbers place "position" 3 f @ numbers place "quaternion" 4 f,
+       tube_of (fields place [ "position"; "turn" ] (get "tube" f))) in
+    let inner = List.map inner (Option.fold ~none:[] ~some:(elements place) (find "inner" f)) in
+    let rec rise s = function
+      | [] -> ()
+      | (t, _, _) :: l -> if not_above t s then refuse place "inner poses that do not rise" else rise t l in
+    rise (fraction Int.zero Int.one) inner;
+    (pose @ first @ tube_of f) :: List.map (fun (s, pose, tube) -> pose @ List.map2 (between s) first last @ tube) inner in
+  let rec all points tubes = match (points, tubes) with
+    | [ (pose, lengths) ], [] -> [ pose @ lengths ]
+    | a :: (b :: _ as rest), t :: tubes -> segment a b t @ all rest tubes
+    | _ -> refuse place "expected a tube for each segment" in
+  List.map no_half_turns (all (List.map waypoint waypoints) tubes)
 
 let path count json =
   let place = "path" in
@@ -373,17 +413,35 @@ let path count json =
     | "straight-in-parameters" -> Straight
     | "cubic-b-spline" -> Spline
     | "geodesic" -> Geodesic
+    | "straight-in-cable-lengths" -> Lengths
     | _ -> refuse place "a law that Coq is not told" in
-  List.iter (fun k -> if not (Option.fold ~none:true ~some:is_empty (find k f)) then refuse place "'%s'" k) [ "pose_tubes"; "tubes" ];
-  (motion, List.map (if motion = Geodesic then pose else waypoint count) (elements place (get "waypoints" f)))
+  let empty k = if not (Option.fold ~none:true ~some:is_empty (find k f)) then refuse place "'%s'" k in
+  empty "tubes";
+  if motion <> Lengths then empty "pose_tubes";
+  let waypoints = elements place (get "waypoints" f) in
+  (motion, match motion with
+    | Lengths -> held waypoints (Option.fold ~none:[] ~some:(elements place) (find "pose_tubes" f))
+    | Geodesic -> List.map pose waypoints
+    | Straight | Spline -> List.map (waypoint count) waypoints)
+
+let scale_of place f =
+  let scale = whole place (get "scale" f) in
+  if Int.sign scale <= 0 || Int.gt scale (Int.of_int 1000) then refuse place "a scale out of range";
+  scale
+
+let inverse_of place f = six place (six place (whole place)) (get "inverse" f)
+
+let tube_box json =
+  let place = "boxes" in
+  let f = fields place [ "scale"; "inverse"; "left"; "guess"; "within"; "share" ] json in
+  { tube_scale = scale_of place f; tube_inverse = inverse_of place f; left = number place (get "left" f);
+    guess = six place (number place) (get "guess" f); within = number place (get "within" f); share = number place (get "share" f) }
 
 let box json =
   let place = "boxes" in
-  let f = fields place [ "upto"; "scale"; "inverse"; "densities" ] json in
-  let scale = whole place (get "scale" f) in
-  if Int.sign scale <= 0 || Int.gt scale (Int.of_int 1000) then refuse place "a scale out of range";
-  { upto = number place (get "upto" f); scale0 = scale; inverse = six place (six place (whole place)) (get "inverse" f);
-    densities = six place (whole place) (get "densities" f) }
+  let f = fields place [ "upto"; "scale"; "inverse"; "densities" ] ~optional:[ "tube" ] json in
+  { upto = number place (get "upto" f); scale0 = scale_of place f; inverse = inverse_of place f;
+    densities = six place (whole place) (get "densities" f); tube = Option.map tube_box (find "tube" f) }
 
 let certificate json boxes =
   let all = entries "certificate" json in
@@ -416,14 +474,15 @@ let () =
       try
         let read name = Yojson.Safe.from_file name in
         let c = certificate (read file) (read boxes) in
-        if Exact.N.C.check c then
+        if Exact.check c then
           Printf.printf
-            "verified: everywhere along the path (%d segment%s), for every machine and pose within the tolerances and \
+            "verified: everywhere along the path (%d segment%s), %sfor every machine and pose within the tolerances and \
              every wrench of the load, exactly one list of tensions balances it, and all tensions and all lengths are \
              strictly within their limits.\n\
              Not verified: how large margins are, that parameters stay in their ranges, that the path leads where the \
              query asked, and who signed.\n"
             (List.length c.boxes) (if List.length c.boxes = 1 then "" else "s")
+            (if c.motion = Lengths then "there is exactly one pose in its tube with its lengths, and there, " else "")
         else begin
           print_endline "REFUSED: the checker does not accept it with these boxes.";
           exit 1

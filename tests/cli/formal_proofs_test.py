@@ -23,7 +23,7 @@ SPLINE = os.path.join(CASES, "tutorial", "03-a-smooth-move.yaml")
 ITEMS = os.path.join(SOURCE, "tests", "cli", "formal_items.yaml")
 TOLERANCES = os.path.join(SOURCE, "tests", "cli", "formal_tolerances.yaml")
 OBLIQUE = os.path.join(SOURCE, "tests", "cli", "formal_oblique.yaml")
-GEODESIC = os.path.join(AUDITS, "robot1-geodesic.yaml")
+GEODESIC, LENGTHS = (os.path.join(AUDITS, f"robot1-{law}.yaml") for law in ("geodesic", "cable-lengths"))
 EXACT = "tolerance := Tolerances (Six (0, 0) (0, 0) (0, 0) (0, 0) (0, 0) (0, 0)) 0 0 (Number 0)"
 AXIOMS = {"sig_not_dec", "sig_forall_dec", "functional_extensionality_dep", "epsilon_statement", "classic"}
 POSES = 12          # of each robot
@@ -34,7 +34,8 @@ OVERSTATED = Fraction(1, 10**12)
 
 class Proofs(InFolder):
     def plan(self, case):
-        said = run(TAUT, "audit" if case == GEODESIC else "plan", case, "--out", self.out, "--no-report", "--headroom", "0")
+        command = "audit" if case in (GEODESIC, LENGTHS) else "plan"
+        said = run(TAUT, command, case, "--out", self.out, "--no-report", "--headroom", "0")
         self.assertEqual(said.returncode, 0, said.stderr)
         return self.path("certificate.json")
 
@@ -53,7 +54,7 @@ class WhatIsTrue(Proofs):
         for case, options in ((ROBOT1, []), (SPHERE, ["--fast"]), (ROLL_PITCH_YAW, ["--fast"]),
                               (ITEMS, ["--fast"]), (ITEMS, []), (SPLINE, ["--fast"]),
                               (TOLERANCES, ["--fast"]), (TOLERANCES, []), (OBLIQUE, ["--fast"]), (OBLIQUE, []),
-                              (GEODESIC, ["--fast"])):
+                              (GEODESIC, ["--fast"]), (LENGTHS, [])):
             with self.subTest(case):
                 said = run(TAUT, "formal", self.plan(case), *options)
                 self.assertEqual(said.returncode, 0, said.stderr)
@@ -185,7 +186,7 @@ class TheStatement(Proofs):
         rows = inverse(list(zip(*columns)))
         center = [float(Fraction(x)) for x in problem["load"]["wrench"]]
         densities = [sum(x * w for x, w in zip(row, center)) for row in rows]
-        return f"[[Box 1 {SCALE} (Six {' '.join(map(six, rows))})%Z {six(densities)}%Z]]"
+        return f"[[Box 1 {SCALE} (Six {' '.join(map(six, rows))})%Z {six(densities)}%Z None]]"
 
     def goal(self, text, problem, line, answer, edit=None):
         """A goal in Coq: whether the checker accepts these limits, of which one may be overstated."""
@@ -200,7 +201,7 @@ class TheStatement(Proofs):
         text = re.sub(r"\(([^()]+), ([^()]+)\) \(([^()]+), ([^()]+)\)\)", lambda _: " ".join(
             f"({exact(low)}, {exact(high)})" for low, high in next(cables)) + ")", text)
         point = f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in line['pose'])}]"
-        return (f"Goal Fast.N.C.check {{| subject := {text}; {EXACT} |}};\n"
+        return (f"Goal Fast.check {{| subject := {text}; {EXACT} |}};\n"
                 f"  motion := Straight; path := [{point}; {point}];\n"
                 "  tension_margin := 0; length_margin := 0; bits := 60;\n"
                 f"  boxes := {self.box(problem, line['pose'])} |}} = {answer}.\n"
@@ -304,7 +305,7 @@ class WithinTolerances(Proofs):
                     f"({limit(kind, i, 0)}, {limit(kind, i, 1)})" for i in [next(cables)]
                     for kind in ("tension", "length")) + ")", machine)
                 at = f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in pose)}]"
-                goals.append(f"Goal Fast.N.C.check {{| subject := {limited}; {tolerance} |}}; motion := Straight;\n"
+                goals.append(f"Goal Fast.check {{| subject := {limited}; {tolerance} |}}; motion := Straight;\n"
                              f"  path := [{at}; {at}]; tension_margin := 0; length_margin := 0; bits := 60;\n"
                              f"  boxes := {box} |}} = {'true' if edit is None else 'false'}.\n"
                              "Proof. vm_compute. reflexivity. Qed.\n")
@@ -313,12 +314,13 @@ class WithinTolerances(Proofs):
 
 
 class AlongMotions(Proofs):
-    """Poses of geodesics and of turns about an axis, computed otherwise, under an oblique ellipsoid: as WithinTolerances.
+    """Poses of geodesics, of turns about an axis and of lengths, computed otherwise, under an oblique ellipsoid.
 
-    Of a short way, that one box is enough; its limits are just beyond what is reached at any of many places.
+    As WithinTolerances, of short ways, so that one box is enough: Coq accepts limits that are just beyond what is
+    reached at any of many places, and refuses each that is reached.
     """
     PLACES = 201
-    ROOM = 1.05  # times as far from the middle of what is reached
+    ROOM, ROOM_OF_LENGTHS = 1.05, 1.2  # times as far from the middle of what is reached
     MATRIX = ((1e4, 3e3, 1e3, 0, 0, 2e4), (3e3, 2e4, 0, 0, 0, -3e4), (1e3, 0, 1e4, 0, 4e4, 0),
               (0, 0, 0, 1e6, -3e5, 0), (0, 0, 4e4, -3e5, 1e6, 0), (2e4, -3e4, 0, 0, 0, 2e6))
 
@@ -346,7 +348,7 @@ class AlongMotions(Proofs):
             tensions.append([length * (dot(row, center) + sign * reach) for sign in (-1, 1)])
         return tensions, lengths, columns
 
-    def goals(self, machine, problem, law, path, poses):
+    def goals(self, machine, problem, law, path, poses, tube="None", room=ROOM):
         """One that the checker accepts, and for each limit one that it refuses: a pose is beyond it."""
         all_of = [self.reached(problem, *pose) for pose in poses]
         ends = {"tension": [[f(found[0][i][side] for found in all_of) for side, f in ((0, min), (1, max))]
@@ -354,20 +356,60 @@ class AlongMotions(Proofs):
                 "length": [[f(found[1][i] for found in all_of) for f in (min, max)] for i in range(6)]}
         rows = inverse(list(zip(*all_of[self.PLACES // 2][2])))
         center = [float(Fraction(c)) for c in problem["load"]["wrench"]]
-        box = f"[[Box 1 {SCALE} (Six {' '.join(map(six, rows))})%Z {six([dot(row, center) for row in rows])}%Z]]"
+        box = f"[[Box 1 {SCALE} (Six {' '.join(map(six, rows))})%Z {six([dot(row, center) for row in rows])}%Z {tube}]]"
         for edit in [None] + [(kind, i, side) for kind in ends for i in range(6) for side in (0, 1)]:
             def limit(kind, i, side):
                 end, middle = ends[kind][i][side], sum(ends[kind][i]) / 2
-                return exact(end if edit == (kind, i, side) else middle + self.ROOM * (end - middle))
+                return exact(end if edit == (kind, i, side) else middle + room * (end - middle))
             cables = iter(range(6))
             limited = re.sub(r"\(([^()]+), ([^()]+)\) \(([^()]+), ([^()]+)\)\)", lambda _: " ".join(
                 f"({limit(kind, i, 0)}, {limit(kind, i, 1)})" for i in [next(cables)]
                 for kind in ("tension", "length")) + ")", machine)
             points = "; ".join(f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in point)}]" for point in path)
-            yield (f"Goal Fast.N.C.check {{| subject := {limited}; {EXACT} |}}; motion := {law};\n"
+            yield (f"Goal Fast.check {{| subject := {limited}; {EXACT} |}}; motion := {law};\n"
                    f"  path := [{points}]; tension_margin := 0; length_margin := 0; bits := 60;\n"
                    f"  boxes := {box} |}} = {'true' if edit is None else 'false'}.\n"
                    "Proof. vm_compute. reflexivity. Qed.\n")
+
+    def of_lengths(self, machine, problem, shares):
+        """By Newton's method from the chord, with a derivative from differences."""
+        size = (2e-5, 2e-4)
+
+        def pose(x, tube):
+            """The pose of the chord at x, changed by coordinates in the tube: a product of quaternions."""
+            u, v, (a, b) = [size[1] * c for c in tube[3:]], x[3:6], (1, x[6])
+            return ([c + size[0] * y for c, y in zip(x, tube)],
+                    [a * c + b * y + z for c, y, z in zip(v, u, cross(u, v))] + [a * b - dot(u, v)])
+
+        def lengths(x, tube):
+            return self.reached(problem, *pose(x, tube))[1]
+
+        def derivative(x):  # of half the squares
+            def half(tube):
+                return [c * c / 2 for c in lengths(x, tube)]
+            step = 1e-2
+            columns = [[(a - b) / (2 * step) for a, b in
+                        zip(half([step * (i == j) for i in range(6)]), half([-step * (i == j) for i in range(6)]))]
+                       for j in range(6)]
+            return list(zip(*columns))
+        first, last = (0, 0, 0.35, 0.01, -0.02, 0.29, 0.95), (2e-5, 5e-5, 0.35, 0.0102, -0.0202, 0.2901, 0.9498)
+        ends = [lengths(x, [0] * 6) for x in (first, last)]
+        poses, farthest = [], 0
+        for s in shares:
+            x = [a + s * (b - a) for a, b in zip(first, last)]
+            target = [a + s * (b - a) for a, b in zip(*ends)]
+            solve, tube = inverse(derivative(x)), [0] * 6
+            for _ in range(5):
+                off = [(a * a - b * b) / 2 for a, b in zip(lengths(x, tube), target)]
+                tube = [c - dot(row, off) for c, row in zip(tube, solve)]
+            farthest = max(farthest, *map(abs, tube))
+            poses.append(pose(x, tube))
+        self.assertTrue(1e-5 < farthest < 1e-2, farthest)
+        middle = inverse(derivative([(a + b) / 2 for a, b in zip(first, last)]))
+        tube = (f"(Some (TubeBox {SCALE} (Six {' '.join(map(six, middle))})%Z (1 # 32) (Six 0 0 0 0 0 0) "
+                "(1 # 256) (1 # 256)))")
+        path = [(*x, *length, *size) for x, length in zip((first, last), ends)]
+        yield from self.goals(machine, problem, "Lengths", path, poses, tube, self.ROOM_OF_LENGTHS)
 
     def test_poses_and_loads_are_those_of_the_statement(self):
         text = self.written(OBLIQUE)
@@ -398,6 +440,7 @@ class AlongMotions(Proofs):
                  for x, turn in (between(first, last, s) for s in shares)]
         self.assertIn("About (Vec (-1) 2 (-30)) (Param 1)", machine)
         goals += self.goals(machine, problem, "Straight", (first, last), poses)
+        goals += self.of_lengths(machine, problem, shares)
         said = self.coqc(head + "".join(goals))
         self.assertEqual(said.returncode, 0, said.stderr)
 
@@ -478,7 +521,7 @@ class TheLoad(Proofs):
             ranges = [[sum(ends) for ends in zip(*(self.range_over_item(item, pose, y) for item in self.robot["load"]))]
                       for y in rows]
             middles = [(low + high) / 2 for low, high in ranges]
-            box = f"[[Box 1 {SCALE} (Six {' '.join(map(six, rows))})%Z {six(middles)}%Z]]"
+            box = f"[[Box 1 {SCALE} (Six {' '.join(map(six, rows))})%Z {six(middles)}%Z None]]"
             edits = [None] + [(i, side) for i in range(6) for side in (0, 1)]
             for edit in edits[:1] + edits[1 + k::2]:
                 def limit(i, side):
@@ -489,7 +532,7 @@ class TheLoad(Proofs):
                 machine = re.sub(r"pose_position.*", "pose_position := Vec (Param 0) (Param 1) (Param 2);\n"
                                  "  pose_angles := TiltTorsion (Param 3) (Param 4) (Param 5)", machine, flags=re.S)
                 point = f"[{'; '.join(f'({exact(x)}, 0%Z)' for x in pose)}]"
-                goals.append(f"Goal Fast.N.C.check {{| subject := {machine}; {EXACT} |}}; motion := Straight;\n"
+                goals.append(f"Goal Fast.check {{| subject := {machine}; {EXACT} |}}; motion := Straight;\n"
                              f"  path := [{point}; {point}]; tension_margin := 0; length_margin := 0; bits := 60;\n"
                              f"  boxes := {box} |}} = "
                              f"{'true' if edit is None else 'false'}.\nProof. vm_compute. reflexivity. Qed.\n")

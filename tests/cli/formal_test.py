@@ -24,7 +24,7 @@ ROLL_PITCH_YAW = os.path.join(CASES, "robot1-roll-pitch-yaw.yaml")
 ITEMS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "formal_items.yaml")
 TOLERANCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "formal_tolerances.yaml")
 OBLIQUE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "formal_oblique.yaml")
-GEODESIC = os.path.join(AUDITS, "robot1-geodesic.yaml")
+GEODESIC, LENGTHS = (os.path.join(AUDITS, f"robot1-{law}.yaml") for law in ("geodesic", "cable-lengths"))
 SPLINE = os.path.join(CASES, "tutorial", "03-a-smooth-move.yaml")
 NO_PATH = os.path.join(CASES, "tutorial", "02-a-slack-start.yaml")
 # What says nothing of which motions are feasible: Coq is not told of it.
@@ -50,7 +50,8 @@ def sealed(certificate):
 def planned(case):
     """The certificate of the case; not to be altered in place."""
     with tempfile.TemporaryDirectory() as out:
-        said = run(TAUT, "audit" if case == GEODESIC else "plan", case, "--out", out, "--no-report", "--headroom", "0")
+        command = "audit" if case in (GEODESIC, LENGTHS) else "plan"
+        said = run(TAUT, command, case, "--out", out, "--no-report", "--headroom", "0")
         assert said.returncode == 0, said.stdout + said.stderr
         return json.loads(text_of(os.path.join(out, "certificate.json")))
 
@@ -114,6 +115,21 @@ def load_of(load, shift):
     return items
 
 
+def held(path):
+    """Waypoints and inner poses where lengths are straight: each with its lengths and its tube, and no half turns."""
+    def exactly(numbers):
+        return [Fraction(float.fromhex(x)) for x in numbers]
+    points, poses = path["waypoints"], []
+    for begin, end, tube in zip(points, points[1:], path["pose_tubes"]):
+        lengths = list(zip(exactly(begin["lengths"]), exactly(end["lengths"])))
+        inner = [(pose, pose["s"], pose["tube"]) for pose in tube.get("inner", [])]
+        for place, s, size in [(begin, "0", tube), *inner]:
+            poses.append(exactly(place["position"] + place["quaternion"]) +
+                         [a + Fraction(s) * (b - a) for a, b in lengths] + exactly([size["position"], size["turn"]]))
+    poses.append(exactly(points[-1]["position"] + points[-1]["quaternion"] + points[-1]["lengths"]) + [0, 0])
+    return [[(x, 0) for x in pose] for pose in poses]
+
+
 class Formal(InFolder):
     def formal(self, certificate, *arguments, name="certificate.json", **options):
         file = self.write(name, json.dumps(certificate, sort_keys=True))
@@ -163,13 +179,14 @@ class WhatIsWritten(Formal):
         cert = data["cert"]
         self.assertEqual(cert["subject"], "robot")
         self.assertEqual([cert["tension_margin"], cert["length_margin"]], [0, 0])
-        is_spline, is_geodesic = (path["interpolation"] == law for law in ("cubic-b-spline", "geodesic"))
-        self.assertEqual(cert["motion"], "Spline" if is_spline else "Geodesic" if is_geodesic else "Straight")
-        for written, point in zip(cert["path"], path["waypoints"], strict=True):
-            x, turns = ((point["position"] + point["quaternion"], [0] * 7) if is_geodesic
-                        else (point["x"], point["half_turns"]))
-            self.assertEqual(written, [(Fraction(float.fromhex(x)), n) for x, n in zip(x, turns, strict=True)])
-        self.assertEqual(len(cert["boxes"]), len(path["waypoints"]) - (3 if is_spline else 1))
+        law = {"straight-in-parameters": "Straight", "cubic-b-spline": "Spline", "geodesic": "Geodesic",
+               "straight-in-cable-lengths": "Lengths"}[path["interpolation"]]
+        self.assertEqual(cert["motion"], law)
+        self.assertEqual(cert["path"], held(path) if law == "Lengths" else [
+            [(Fraction(float.fromhex(x)), turns) for x, turns in
+             (zip(point["x"], point["half_turns"], strict=True) if "x" in point else
+              ((x, 0) for x in point["position"] + point["quaternion"]))] for point in path["waypoints"]])
+        self.assertEqual(len(cert["boxes"]), len(cert["path"]) - (3 if law == "Spline" else 1))
         for boxes in cert["boxes"]:
             self.assertEqual(boxes[-1][1], 1)
         return certificate
@@ -194,7 +211,7 @@ class WhatIsWritten(Formal):
                                    delta=1e-12)
 
     def test_it_is_what_the_certificate_states(self):
-        for case in (ROBOT1, SPHERE, ROLL_PITCH_YAW, ITEMS, TOLERANCES, OBLIQUE, GEODESIC, SPLINE):
+        for case in (ROBOT1, SPHERE, ROLL_PITCH_YAW, ITEMS, TOLERANCES, OBLIQUE, GEODESIC, LENGTHS, SPLINE):
             with self.subTest(case):
                 self.compare(case)
 
@@ -269,7 +286,7 @@ class WhatIsRefused(Formal):
                 (["plan", NO_PATH], "certificate"),
                 (["plan", os.path.join(CASES, "robot2-implicit-sphere-q1-q2-q3.yaml")], "constraints"),
                 (["audit", os.path.join(AUDITS, "robot1-straight-qs-qg.yaml")], "'refuted'"),
-                (["audit", os.path.join(AUDITS, "robot1-cable-lengths.yaml")], "straight-in-cable-lengths")]:
+                (["audit", os.path.join(AUDITS, "robot1-cable-lengths-tolerances.yaml")], "cables' lengths")]:
             with self.subTest(words), tempfile.TemporaryDirectory() as out:
                 run(TAUT, *arguments, "--out", out, "--no-report", "--headroom", "0")
                 self.refused(json.loads(text_of(os.path.join(out, "certificate.json"))), words)

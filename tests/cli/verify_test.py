@@ -24,8 +24,8 @@ CORPUS = os.path.join(os.path.dirname(os.path.dirname(TAUT)), "tests", "certific
 ITEMS = os.path.join(SOURCE, "tests", "cli", "formal_items.yaml")
 TOLERANCES = os.path.join(SOURCE, "tests", "cli", "formal_tolerances.yaml")
 OBLIQUE = os.path.join(SOURCE, "tests", "cli", "formal_oblique.yaml")
-GEODESIC = os.path.join(AUDITS, "robot1-geodesic.yaml")
-PLANNED = [ROBOT1, ITEMS, TOLERANCES, OBLIQUE, GEODESIC, *(os.path.join(CASES, name + ".yaml") for name in
+GEODESIC, LENGTHS = (os.path.join(AUDITS, f"robot1-{law}.yaml") for law in ("geodesic", "cable-lengths"))
+PLANNED = [ROBOT1, ITEMS, TOLERANCES, OBLIQUE, GEODESIC, LENGTHS, *(os.path.join(CASES, name + ".yaml") for name in
                             ("robot1-roll-pitch-yaw", "robot1-free-box-qs-qg", "robot2-sphere-q1-q2",
                              "robot2-sphere-q2-q3", "robot2-free-q2-q3", "tutorial/03-a-smooth-move"))]
 # Of the corpus: rejected or malformed for what the statement does not say, so it is true all the same.
@@ -55,7 +55,8 @@ class Verify(InFolder):
         return file if said.returncode == 0 else None
 
     def plan(self, case):
-        said = run(TAUT, "audit" if case == GEODESIC else "plan", case, "--out", self.out, "--no-report", "--headroom", "0")
+        command = "audit" if case in (GEODESIC, LENGTHS) else "plan"
+        said = run(TAUT, command, case, "--out", self.out, "--no-report", "--headroom", "0")
         self.assertEqual(said.returncode, 0, said.stderr)
         return self.path("certificate.json")
 
@@ -161,6 +162,60 @@ class Planned(Verify):
 
     def minus(self, x):
         return x[1:] if x.startswith("-") else "-" + x
+
+    def test_other_lengths_are_refused(self):
+        certificate = os.path.join(CORPUS, "accepted", "lengths_inner.json")
+        boxes = self.boxes(certificate)
+        self.assertEqual(verify(certificate, boxes).returncode, 0)
+        stated = json.loads(text_of(certificate))
+        path = stated["path"]
+        k = next(k for k, tube in enumerate(path["pose_tubes"]) if "inner" in tube)
+
+        def put(where, key, value):
+            def edit(c):
+                where(c["path"])[key] = value
+            return edit
+
+        def first(p):
+            return p["pose_tubes"][k]
+
+        def inner(p):
+            return first(p)["inner"][0]
+        def other(x, factor):
+            return (factor * float.fromhex(x)).hex()
+        tube = path["pose_tubes"][k]
+        edits = [(put(lambda p: p["waypoints"][0]["lengths"], i, other(path["waypoints"][0]["lengths"][i], 1.01)), 1)
+                 for i in range(6)]
+        edits += [(put(lambda p: inner(p)["position"], 0, "0x1p-1"), 1),
+                  (put(lambda p: inner(p)["quaternion"], 1, "0x1p-1"), 1),
+                  (put(inner, "quaternion", ["0x0p+0"] * 4), 1),
+                  (put(lambda p: p["waypoints"][1], "quaternion", ["0x0p+0"] * 4), 1),
+                  (put(first, "position", other(tube["position"], 1e-6)), 1),
+                  (put(first, "turn", other(tube["turn"], 1e6)), 1), (put(first, "position", "0x0p+0"), 1),
+                  (put(first, "position", "-0x1p-10"), 1), (put(inner, "s", "0"), 3), (put(inner, "s", "1"), 3),
+                  (put(inner, "s", "-1/2"), 3), (put(lambda p: p, "pose_tubes", path["pose_tubes"][1:]), 3),
+                  (put(lambda p: p, "pose_tubes", []), 3), (put(lambda p: p, "interpolation", "geodesic"), 3)]
+        for n, (edit, code) in enumerate(edits):
+            with self.subTest(n):
+                mutant = copy.deepcopy(stated)
+                edit(mutant)
+                said = verify(self.write("mutant.json", json.dumps(mutant)), boxes)
+                self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+
+    def test_other_numbers_of_a_tube(self):
+        """Whatever is said of how lengths are held, nothing is believed of it."""
+        certificate = os.path.join(CORPUS, "accepted", "lengths.json")
+        stated = json.loads(text_of(self.boxes(certificate)))
+        tube = stated["boxes"][0][0]["tube"]
+        for key, value in (("left", "1/1"), ("left", "2/1"), ("left", "1/1024"), ("within", "0/1"),
+                           ("within", "-1/1024"), ("share", "0/1"), ("share", "2/1"), ("guess", ["1023/1024"] * 6), ("inverse", [[0] * 6] * 6),
+                           ("scale", tube["scale"] + 1)):
+            with self.subTest(key, value=value):
+                mutant = copy.deepcopy(stated)
+                mutant["boxes"][0][0]["tube"][key] = value
+                self.assertEqual(verify(certificate, self.write("other.json", json.dumps(mutant))).returncode, 1)
+        del stated["boxes"][0][0]["tube"]
+        self.assertEqual(verify(certificate, self.write("other.json", json.dumps(stated))).returncode, 1)
 
     def test_another_ellipsoid_is_refused(self):
         certificate = self.plan(OBLIQUE)

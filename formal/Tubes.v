@@ -1,0 +1,432 @@
+(* SPDX-License-Identifier: GPL-3.0-or-later *)
+(** * What the checker accepts of lengths that are held is true: there is one pose near the chord that has them *)
+
+From Coq Require Import Reals QArith Qreals ZArith Lra Lia Bool List FunctionalExtensionality.
+From Flocq Require Import Zaux.
+From Interval Require Import Float.Specific_sig Interval.Interval Interval.Float_full Real.Xreal.
+From Interval Require Import Float.Basic Float.Sig.
+From Taut Require Import Statement Certificate Lemmas Loads Turns Checker Enclosure Machine Contraction Poses Motions.
+Import ListNotations.
+Open Scope R_scope.
+
+Definition half : R := Q2R (1 # 2).
+
+(** A pose in the tube, by its six coordinates. *)
+Definition first3 (z : nat -> R) : vec R := Vec (z 0%nat) (z 1%nat) (z 2%nat).
+Definition last3 (z : nat -> R) : vec R := Vec (z 3%nat) (z 4%nat) (z 5%nat).
+Definition tube_pose (v : waypoint) (P : pose) (z : nat -> R) : pose :=
+  Pose (plus (position P) (times (coordinate v 13) (first3 z)))
+       (fun u => turn_by (Quaternion (times (coordinate v 14) (last3 z)) 1) (turn P u)).
+
+Definition cable_of (m : machine) (P : pose) (i : nat) : vec R := cable_vector P (nth6 (anchors (itself m)) i).
+Definition excess (m : machine) (L : nat -> R) (P : pose) (i : nat) : R :=
+  half * (dot (cable_of m P i) (cable_of m P i) - L i * L i).
+
+Lemma excess_is_0 m L P i : 0 < L i -> (excess m L P i = 0 <-> norm (cable_of m P i) = L i).
+Proof.
+  intros pos. unfold excess, half. replace (Q2R (1 # 2)) with (1 / 2) by (unfold Q2R; cbn; lra). rewrite dot_is_square.
+  assert (n := norm_is_positive (cable_of m P i)). split; intros h; [| rewrite h; ring]. nra.
+Qed.
+
+Lemma has_lengths_each m L P : has_lengths m L P <-> forall i, (i < 6)%nat -> norm (cable_of m P i) = nth6 L i.
+Proof.
+  unfold has_lengths, all6, fold6, zip6, cable_of, cable_length. cbn [at1 at2 at3 at4 at5 at6]. split.
+  - intros h. decompose [and] h. apply each_of_six; assumption.
+  - intros h. repeat split; first [apply (h 0%nat); lia | apply (h 1%nat); lia | apply (h 2%nat); lia |
+      apply (h 3%nat); lia | apply (h 4%nat); lia | apply (h 5%nat); lia].
+Qed.
+
+Lemma turn_by_nothing k u : turn_by (Quaternion (times k (Vec 0 0 0)) 1) u = u.
+Proof. destruct u as [x y z]. unfold turn_by, plus, times, cross, dot. cbn. f_equal; field. Qed.
+
+Definition of_vecs (y z : vec R) (i : nat) : R :=
+  match i with 0%nat => vx y | 1%nat => vy y | 2%nat => vz y | 3%nat => vx z | 4%nat => vy z | _ => vz z end.
+
+Lemma tube_pose_of_vecs v P y z : tube_pose v P (of_vecs y z) = Pose (plus (position P) (times (coordinate v 13) y))
+  (fun u => turn_by (Quaternion (times (coordinate v 14) z) 1) (turn P u)).
+Proof. destruct y, z. reflexivity. Qed.
+
+Lemma in_box_of_vecs y z : in_box (of_vecs y z) <-> in_unit_box y /\ in_unit_box z.
+Proof.
+  split.
+  - intros h. split; (split; [| split]); first [exact (h 0%nat ltac:(lia)) | exact (h 1%nat ltac:(lia)) |
+      exact (h 2%nat ltac:(lia)) | exact (h 3%nat ltac:(lia)) | exact (h 4%nat ltac:(lia)) | exact (h 5%nat ltac:(lia))].
+  - intros [[a [b c]] [d [e f]]]. unfold in_box. apply each_of_six; assumption.
+Qed.
+
+Lemma same_coordinates v P z z' : (forall i, (i < 6)%nat -> z i = z' i) -> tube_pose v P z = tube_pose v P z'.
+Proof. intros h. unfold tube_pose, first3, last3. now rewrite !h by lia. Qed.
+
+(** ** A platform in the tube is off by little *)
+
+Lemma norm_is_small u e : Rabs (vx u) <= e -> Rabs (vy u) <= e -> Rabs (vz u) <= e -> norm u <= 7 / 4 * e.
+Proof.
+  destruct u as [x y z]. cbn [vx vy vz]. intros a b c. assert (p : 0 <= e) by (apply Rle_trans with (2 := a); apply Rabs_pos).
+  rewrite <- (Rabs_pos_eq (norm _)) by apply norm_is_positive. apply abs_below; [lra |]. rewrite <- dot_is_square.
+  unfold dot. cbn [vx vy vz].
+  assert (sq : forall q, Rabs q <= e -> q * q <= e * e).
+  { intros q h. rewrite <- (Rabs_pos_eq e p) in h. apply Rsqr_le_abs_1 in h. exact h. }
+  assert (h1 := sq x a). assert (h2 := sq y b). assert (h3 := sq z c). nra.
+Qed.
+
+Lemma atan_is_below x : 0 <= x -> 0 <= atan x <= x.
+Proof.
+  intros h. destruct (Req_dec x 0) as [-> | n]; [rewrite atan_0; lra |].
+  destruct (MVT_cor2 atan (fun y => / (1 + y ^ 2)) 0 x ltac:(lra)) as [y [e _]]; [intros y _; apply derivable_pt_lim_atan |].
+  rewrite atan_0 in e. assert (p : 0 < 1 + y ^ 2) by nra. assert (i := Rinv_0_lt_compat _ p).
+  assert (o : / (1 + y ^ 2) <= 1) by (rewrite <- Rinv_1; apply Rinv_le_contravar; nra). nra.
+Qed.
+
+(** A quaternion with the scalar part 1 turns by no more than twice its vector part. *)
+Lemma turn_by_is_about w : exists n angle, norm n = 1 /\ Rabs angle <= 2 * norm w /\
+  forall u, turn_by (Quaternion w 1) u = turn_about n angle u.
+Proof.
+  assert (p := norm_is_positive w). destruct (Req_dec (norm w) 0) as [z | n].
+  - exists (Vec 1 0 0), 0. split; [unfold norm, dot; cbn; replace (_ + _) with 1 by ring; apply sqrt_1 |].
+    split; [rewrite Rabs_R0; lra |]. intros u. rewrite turn_about_by_nothing, (norm_is_zero w) by lra.
+    rewrite <- (turn_by_nothing 0 u) at 2. unfold times. cbn [vx vy vz]. now rewrite Rmult_0_l.
+  - exists (unit_along w), (2 * atan (norm w / 1)). split; [| split].
+    + apply unit_along_is_unit. intros e. apply n. rewrite e. apply norm_of_zero.
+    + replace (norm w / 1) with (norm w) by field. assert (h := atan_is_below (norm w) p). rewrite Rabs_pos_eq; lra.
+    + intros u. symmetry. apply (turn_about_is_turn_by (Quaternion w 1)). cbn [scalar_part]. lra.
+Qed.
+
+Lemma six_choices {A : Type} (P : nat -> A -> Prop) : (forall i, (i < 6)%nat -> exists a, P i a) ->
+  exists f, forall i, (i < 6)%nat -> P i (f i).
+Proof.
+  intros h. destruct (h 0%nat ltac:(lia)) as [a0 h0]. destruct (h 1%nat ltac:(lia)) as [a1 h1].
+  destruct (h 2%nat ltac:(lia)) as [a2 h2]. destruct (h 3%nat ltac:(lia)) as [a3 h3].
+  destruct (h 4%nat ltac:(lia)) as [a4 h4]. destruct (h 5%nat ltac:(lia)) as [a5 h5].
+  exists (fun i => match i with 0%nat => a0 | 1%nat => a1 | 2%nat => a2 | 3%nat => a3 | 4%nat => a4 | _ => a5 end).
+  apply each_of_six; assumption.
+Qed.
+
+Module Tubes (F : FloatOps with Definition radix := radix2 with Definition sensible_format := true).
+
+Module M := Motions.Motions F.
+Import M M.P M.P.N M.P.N.C.
+
+Section Precision.
+
+Variable prec : F.precision.
+
+Lemma turned_images_enclose t R f f' U u u' : images_enclose t R f f' ->
+  (forall a, f a = combination a (f unit_x) (f unit_y) (f unit_z)) ->
+  (forall a, f' a = combination a (f' unit_x) (f' unit_y) (f' unit_z)) ->
+  v_encloses t U u u' -> v_encloses t (turned prec R U) (f u) (f' u').
+Proof.
+  intros [x [y z]] l l' h. destruct h as [hx [hy hz]]. rewrite l, (l' u'). unfold turned, combination.
+  repeat first [apply v_add_encloses | apply v_scale_encloses; assumption].
+Qed.
+
+Section Tube.
+
+Variables (m : machine) (v w : waypoint) (x S : interval) (middle s : R).
+Hypotheses (middle_in_x : is_in middle x) (middle_in_S : is_in middle S) (s_in : is_in s S)
+  (v_is_rational : no_half_turns v = true).
+
+Let L (i : nat) : R := on_line v w s (7 + i).
+Let chord := on_chord v w.
+Let g (z : nat -> R) : nat -> R := excess m L (tube_pose v (chord s) z).
+
+(** *** Along s, in the middle of the tube *)
+
+Let along : change := Change (s - middle) (fun _ => Vec 0 0 0).
+Hypothesis turns : is_turn (chord_form prec v w x S) = true.
+
+Lemma along_is_in : is_in (of_place along) (fst (tube_reach prec x S)).
+Proof. cbn. now apply sub_is_in. Qed.
+
+Lemma along_has_0 : is_in 0 (fst (tube_reach prec x S)).
+Proof. cbn [tube_reach fst]. replace 0 with (middle - middle) by ring. now apply sub_is_in. Qed.
+
+Lemma along_is_within : deviates_within (of_ball along) balls (snd (tube_reach prec x S)).
+Proof.
+  intros b l. exists 0. split; [cbn; rewrite norm_of_zero; lra |]. cbn [tube_reach snd].
+  rewrite nth_repeat_below by exact l. apply (integer_is_in prec 0).
+Qed.
+
+Notation tight_enc := (v_tight_encloses prec along (tube_reach prec x S) along_has_0 along_is_in eq_refl along_is_within).
+
+Lemma chord_is_enclosed : is_rigid (chord middle) /\ is_rigid (chord s) /\
+  pose_encloses along (chord_form prec v w x S) (chord middle) (chord s).
+Proof. exact (chord_follows prec v w middle s x S along middle_in_x middle_in_S s_in eq_refl turns). Qed.
+
+Lemma arm_is_enclosed c : v_encloses along (arm_range prec v w x S c)
+  (turn (chord middle) (real_vec (platform c))) (turn (chord s) (real_vec (platform c))).
+Proof.
+  destruct chord_is_enclosed as [[lm _] [[ls _] [_ h]]]. unfold arm_range. apply tight_enc.
+  apply turned_images_enclose; [exact h | exact lm | exact ls | apply v_rational_encloses].
+Qed.
+
+Lemma length_is_enclosed i : encloses along (length_form prec v w x S i) (on_line v w middle (7 + i)%nat) (L i).
+Proof. exact (line_follows prec v w middle s x S along middle_in_x middle_in_S s_in eq_refl (7 + i)%nat). Qed.
+
+Lemma half_encloses t D d d' l p p' : v_encloses t D d d' -> encloses t l p p' ->
+  encloses t (half_form prec D l) (half * (dot d d - p * p)) (half * (dot d' d' - p' * p')).
+Proof.
+  intros hd hl. unfold half_form. apply mul_encloses; [apply constant_encloses, fraction_is_in |].
+  apply sub_encloses; [now apply v_dot_encloses | now apply mul_encloses].
+Qed.
+
+Lemma anchors_of_itself i : nth6 (anchors (itself m)) i = (real_vec (base (nth6 (cables m) i)), real_vec (platform (nth6 (cables m) i))).
+Proof. unfold itself. cbn [anchors]. now rewrite nth6_map. Qed.
+
+Lemma start_is_enclosed z i : exists q, encloses along (start_form prec v w x S z i (nth6 (cables m) i)) q
+  (g (fun k => Q2R (nth6 z k)) i).
+Proof.
+  destruct chord_is_enclosed as [_ [_ [h _]]].
+  unfold g, excess, cable_of. rewrite anchors_of_itself.
+  eexists. unfold start_form. apply half_encloses; [| apply length_is_enclosed].
+  apply tight_enc. unfold cable_vector, tube_pose. cbn [fst snd position turn].
+  rewrite !(without_half_turns v) by exact v_is_rational.
+  assert (scale : forall q u, v_encloses along (scaled prec q (v_rational prec u)) (times (Q2R q) (real_vec u)) (times (Q2R q) (real_vec u)))
+    by (intros q u; apply v_scale_encloses; [apply constant_encloses, fraction_is_in | apply v_rational_encloses]).
+  apply v_sub_encloses; [| apply v_rational_encloses]. apply v_add_encloses.
+  - apply v_add_encloses; [exact h | exact (scale _ (Vec (at1 z) (at2 z) (at3 z)))].
+  - apply turn_by_encloses; [exact (scale _ (Vec (at4 z) (at5 z) (at6 z))) | apply one_encloses | apply arm_is_enclosed].
+Qed.
+
+(** *** From one place in the tube to another *)
+
+Section Inside.
+
+Variables (z z' : nat -> R).
+Hypotheses (z_in : in_box z) (z'_in : in_box z').
+
+Let across : change := Change 0 (fun b => match b with
+  0%nat => minus (first3 z') (first3 z) | 1%nat => minus (last3 z') (last3 z) | _ => Vec 0 0 0 end).
+
+Lemma whole_encloses f q q' t : encloses t f q q' -> encloses across (whole prec f) q' q'.
+Proof. intros [_ [_ [h _]]]. now apply constant_encloses. Qed.
+
+Lemma v_whole_encloses V u u' t : v_encloses t V u u' -> v_encloses across (v_whole prec V) u' u'.
+Proof. intros [a [b c]]. split; [| split]; cbn; eapply whole_encloses; eassumption. Qed.
+
+Lemma any_encloses ball unit c q q' : (ball < balls)%nat -> Rabs q <= 1 -> Rabs q' <= 1 -> v_is_in c unit ->
+  q' = q + dot c (of_ball across ball) -> encloses across (any_form prec ball unit) q q'.
+Proof.
+  intros l a b hc e. assert (one_in := integer_is_in prec 1).
+  assert (ends : forall y, Rabs y <= 1 -> is_in y (symmetric (one prec))) by (intros y h; now apply (symmetric_is_in 1)).
+  split; [now apply ends | split; [now apply ends | split; [now apply ends |]]].
+  exists (Change 0 (fun k => if Nat.eqb k ball then c else Vec 0 0 0)). split; [split |].
+  - apply (integer_is_in prec 0).
+  - now apply b_only_holds.
+  - unfold sloped, moved. cbn [of_place of_ball]. rewrite sum_over_one by exact l. rewrite e. cbn [of_place]. unfold across. cbn [of_place]. ring.
+Qed.
+
+Lemma any_vector_encloses ball u u' : (ball < balls)%nat -> in_unit_box u -> in_unit_box u' ->
+  of_ball across ball = minus u' u -> v_encloses across (any_vector prec ball) u u'.
+Proof.
+  intros l [a [b c]] [a' [b' c']] e. assert (o := integer_is_in prec 0). assert (i := integer_is_in prec 1).
+  split; [| split]; cbn [any_vector vx vy vz].
+  - apply (any_encloses ball _ (Vec 1 0 0)); try assumption; [exact (conj i (conj o o)) |]. rewrite e. unfold dot, minus. cbn. ring.
+  - apply (any_encloses ball _ (Vec 0 1 0)); try assumption; [exact (conj o (conj i o)) |]. rewrite e. unfold dot, minus. cbn. ring.
+  - apply (any_encloses ball _ (Vec 0 0 1)); try assumption; [exact (conj o (conj o i)) |]. rewrite e. unfold dot, minus. cbn. ring.
+Qed.
+
+Lemma scaled_encloses q V u u' : v_encloses across V u u' -> v_encloses across (scaled prec q V) (times (Q2R q) u) (times (Q2R q) u').
+Proof. intros h. apply v_scale_encloses; [apply constant_encloses, fraction_is_in | exact h]. Qed.
+
+Lemma parts_in_box y : in_box y -> in_unit_box (first3 y) /\ in_unit_box (last3 y).
+Proof.
+  intros h. split; (split; [| split]); cbn; apply h; lia.
+Qed.
+
+Lemma excess_is_enclosed i : (i < 6)%nat -> encloses across (tube_form prec v w x S i (nth6 (cables m) i)) (g z i) (g z' i).
+Proof.
+  intros li. destruct chord_is_enclosed as [_ [_ [h _]]].
+  destruct (parts_in_box z z_in) as [a b]. destruct (parts_in_box z' z'_in) as [a' b'].
+  unfold g, excess, cable_of. rewrite anchors_of_itself. unfold tube_form.
+  apply half_encloses; [| eapply whole_encloses, length_is_enclosed].
+  unfold cable_vector, tube_pose. cbn [fst snd position turn].
+  rewrite !(without_half_turns v) by exact v_is_rational.
+  apply v_sub_encloses; [| apply v_rational_encloses]. apply v_add_encloses.
+  - apply v_add_encloses; [eapply v_whole_encloses, h |]. apply scaled_encloses.
+    apply any_vector_encloses; [unfold balls; lia | exact a | exact a' | reflexivity].
+  - apply turn_by_encloses; [| apply one_encloses | eapply v_whole_encloses, arm_is_enclosed]. apply scaled_encloses.
+    apply any_vector_encloses; [unfold balls; lia | exact b | exact b' | reflexivity].
+Qed.
+
+(** A row of the derivative. *)
+Lemma row_is_enclosed i : (i < 6)%nat -> exists a : nat -> R,
+  g z' i - g z i = total (fun j => a j * (z' j - z j)) /\
+  forall j, (j < 6)%nat -> is_in (a j) (nth6 (row_of_slopes prec (tube_form prec v w x S i (nth6 (cables m) i))) j).
+Proof.
+  intros li. destruct (excess_is_enclosed i li) as [_ [_ [_ [k [[_ hk] e]]]]].
+  set (f := tube_form prec v w x S i (nth6 (cables m) i)) in *.
+  exists (of_vecs (of_ball k 0) (of_ball k 1)). split.
+  - rewrite e. unfold moved, across, balls, SixEquations.total. cbn [of_place of_ball sum_over of_vecs].
+    unfold first3, last3, minus, dot. cbn [vx vy vz]. ring.
+  - assert (block : forall b, (b < balls)%nat -> v_is_in (of_ball k b)
+        (match nth b (slopes f) None with Some u => u | None => Vec (zero prec) (zero prec) (zero prec) end)).
+    { intros b l. assert (h := hk b l). destruct (nth b (slopes f) None) as [u |]; [exact h |].
+      cbn in h. rewrite h. assert (o := integer_is_in prec 0). exact (conj o (conj o o)). }
+    destruct (block 0%nat ltac:(unfold balls; lia)) as [a0 [a1 a2]].
+    destruct (block 1%nat ltac:(unfold balls; lia)) as [a3 [a4 a5]].
+    apply each_of_six; assumption.
+Qed.
+
+End Inside.
+
+(** *** The decision *)
+
+Lemma transposed_entry {A : Type} (M : six (six A)) i j : (i < 6)%nat -> (j < 6)%nat ->
+  nth6 (nth6 (transposed M) j) i = nth6 (nth6 M i) j.
+Proof.
+  intros li lj. revert j lj i li.
+  apply (each_of_six (fun j => forall i, (i < 6)%nat -> nth6 (nth6 (transposed M) j) i = nth6 (nth6 M i) j));
+    intros i li; exact (nth6_map _ M i).
+Qed.
+
+Lemma index_is i : (i < 6)%nat -> nth6 indices i = i.
+Proof. revert i. apply each_of_six; reflexivity. Qed.
+
+Lemma one_of_Q : Q2R 1 = 1.
+Proof. unfold Q2R. cbn. lra. Qed.
+
+Theorem tube_is_sound b : check_tube prec m v w x S b = true ->
+  exists z, (forall i, (i < 6)%nat -> Rabs (z i) <= Q2R (share b)) /\ Q2R (share b) <= 1 /\
+    has_lengths m (map6 (on_line v w s) (Six 7 8 9 10 11 12)%nat) (tube_pose v (chord s) z) /\
+    forall z', in_box z' -> has_lengths m (map6 (on_line v w s) (Six 7 8 9 10 11 12)%nat) (tube_pose v (chord s) z') ->
+      forall i, (i < 6)%nat -> z' i = z i.
+Proof.
+  unfold check_tube. cbv zeta. rewrite !andb_true_iff. intros [[[[[hL hg] hs] hleft] hrho] heta].
+  set (CI := map6 (map6 (number prec (tube_scale b))) (tube_inverse b)) in *.
+  set (C := fun i k => Q2R (nth6 (nth6 (tube_inverse b) i) k # Pos.pow 2 (tube_scale b))).
+  assert (hC : forall i k, is_in (C i k) (nth6 (nth6 CI i) k)).
+  { intros i k. unfold CI. rewrite !nth6_map. apply number_is_in. }
+  set (z0 := fun i => Q2R (nth6 (guess b) i)).
+  assert (lengths : forall i, (i < 6)%nat -> 0 < L i).
+  { intros i li. assert (h := every_is_true _ hL i li). rewrite nth6_map in h.
+    rewrite index_is in h by exact li.
+    destruct (length_is_enclosed i) as [_ [_ [e _]]]. eapply above0_is_true; [exact h | exact e]. }
+  assert (same_length : forall i, (i < 6)%nat -> nth6 (map6 (on_line v w s) (Six 7 8 9 10 11 12)%nat) i = L i)
+    by (apply each_of_six; reflexivity).
+  assert (lengths_of : forall P, has_lengths m (map6 (on_line v w s) (Six 7 8 9 10 11 12)%nat) P <->
+      forall i, (i < 6)%nat -> excess m L P i = 0).
+  { intros P. rewrite has_lengths_each. split; intros h i li.
+    - apply excess_is_0; [now apply lengths |]. rewrite (h i li). now apply same_length.
+    - assert (e := h i li). apply excess_is_0 in e; [| now apply lengths]. rewrite e. symmetry. now apply same_length. }
+  set (rows := zip6 (fun i c => row_of_slopes prec (tube_form prec v w x S i c)) indices (cables m)) in *.
+  set (E := zip6 (fun (c : six interval) (unit : six Z) => zip6 (fun a z => sub prec (integer prec z) (sum prec (zip6 (mul prec) c a)))
+    (transposed rows) unit) CI units) in hrho.
+  assert (linear : forall z z', in_box z -> in_box z' -> exists A : nat -> nat -> R,
+    (forall i, (i < 6)%nat -> g z' i - g z i = apply6 A (fun j => z' j - z j) i) /\
+    (forall i, (i < 6)%nat -> total (fun j => Rabs (error6 C A i j)) <= Q2R (left b))).
+  { intros z z' hz hz'.
+    destruct (six_choices (fun i (a : nat -> R) => g z' i - g z i = total (fun j => a j * (z' j - z j)) /\
+      forall j, (j < 6)%nat -> is_in (a j) (nth6 (nth6 rows i) j))) as [A hA].
+    { intros i li. destruct (row_is_enclosed z z' hz hz' i li) as [a [ea ia]]. exists a. split; [exact ea |].
+      unfold rows. rewrite nth6_zip, index_is by exact li. exact ia. }
+    exists A. split; [intros i li; apply hA; exact li |]. intros k lk.
+    assert (hE : forall i, (i < 6)%nat -> forall j, (j < 6)%nat -> is_in (error6 C A i j) (nth6 (nth6 E i) j)).
+    { intros i li j lj. unfold E. rewrite !nth6_zip. unfold SixEquations.error6. rewrite <- (units_are_delta i j) by assumption.
+      apply sub_is_in; [apply integer_is_in |]. apply sum_is_in. intros l ll. rewrite nth6_zip.
+      apply mul_is_in; [apply hC |]. rewrite transposed_entry by assumption. now apply hA. }
+    assert (in_rho : is_in (most (fun i => total (fun j => Rabs (error6 C A i j))))
+        (fold6 I.join (map6 (fun row => sum prec (map6 I.abs row)) E))).
+    { apply most_is_in. intros i li. rewrite nth6_map. apply sum_is_in. intros j lj. rewrite nth6_map.
+      now apply abs_is_in, hE. }
+    assert (r := below_is_true _ _ _ _ _ hrho in_rho (fraction_is_in prec (left b))).
+    apply Rle_trans with (2 := Rlt_le _ _ r). exact (most_bounds (fun i => total (fun j => Rabs (error6 C A i j))) k lk). }
+  assert (starts : forall i, (i < 6)%nat -> Rabs (total (fun k => C i k * g z0 k)) <= Q2R (within b) * (1 - Q2R (left b))).
+  { assert (in_eta : is_in (most (fun i => Rabs (total (fun k => C i k * g z0 k))))
+      (fold6 I.join (map6 (fun c => I.abs (range prec (tube_reach prec x S) (f_sum prec
+        (zip6 (fun a f => f_mul prec (constant prec a) f) c (zip6 (start_form prec v w x S (guess b)) indices (cables m)))))) CI))).
+    { apply most_is_in. intros i li. rewrite nth6_map. apply abs_is_in.
+      destruct (six_choices (fun k q => encloses along (start_form prec v w x S (guess b) k (nth6 (cables m) k)) q (g z0 k))) as [q hq].
+      { intros k lk. apply start_is_enclosed. }
+      apply (range_is_in prec along (tube_reach prec x S) along_has_0 along_is_in eq_refl along_is_within _
+        (total (fun k => C i k * q k))).
+      apply (f_sum_encloses prec along (tube_reach prec x S) eq_refl). intros k lk. rewrite !nth6_zip, index_is by exact lk.
+      apply mul_encloses; [apply constant_encloses, hC | now apply hq]. }
+    assert (e := below_is_true _ _ _ _ _ heta in_eta (fraction_is_in prec _)).
+    rewrite Q2R_mult, Q2R_minus, one_of_Q in e. intros i li. apply Rle_trans with (2 := Rlt_le _ _ e).
+    exact (most_bounds (fun i => Rabs (total (fun k => C i k * g z0 k))) i li). }
+  assert (few : Q2R (share b) <= 1).
+  { apply Qle_bool_iff, Qle_Rle in hs. unfold Q2R at 2 in hs. cbn in hs. lra. }
+  assert (small : Q2R (left b) < 1) by (apply above_zero_of in hleft; rewrite Q2R_minus, one_of_Q in hleft; lra).
+  assert (near : forall i, (i < 6)%nat -> Rabs (z0 i) + Q2R (within b) <= Q2R (share b)).
+  { intros i li. assert (h := every_is_true _ hg i li). rewrite nth6_map, andb_true_iff in h. destruct h as [a e].
+    apply Qle_bool_iff, Qle_Rle in a. apply Qle_bool_iff, Qle_Rle in e. rewrite Q2R_plus in a. rewrite Q2R_minus in e.
+    unfold z0, Rabs. destruct (Rcase_abs _); lra. }
+  destruct (one_solution g C z0 (Q2R (left b)) (Q2R (within b)) small
+    (fun i li => Rle_trans _ _ _ (near i li) few) starts linear) as [z [close [solved only]]].
+  assert (inside : forall i, (i < 6)%nat -> Rabs (z i) <= Q2R (share b)).
+  { intros i li. assert (a := close i li). assert (e := near i li). assert (t := Rabs_triang (z i - z0 i) (z0 i)).
+    replace (z i - z0 i + z0 i) with (z i) in t by ring. lra. }
+  exists z. split; [exact inside | split; [exact few | split]].
+  - apply lengths_of. intros i li. exact (solved i li).
+  - intros z' hz' h. apply only; [exact hz' |]. intros i li. exact (proj1 (lengths_of _) h i li).
+Qed.
+
+End Tube.
+(** ** A box *)
+
+Lemma exact_is_tracked m P P' : is_exact m = true -> is_tracked m P P' -> P' = P.
+Proof.
+  unfold is_exact. rewrite !andb_true_iff. intros [[_ position_is_0] turn_is_0] [off [n [angle [ho [_ [ha ->]]]]]].
+  apply zero_of in position_is_0. rewrite position_is_0 in ho. rewrite (norm_is_zero off ho).
+  assert (zero : angle = 0).
+  { destruct (of_orientation (tolerance m)) as [q | | | | | | | | | |]; try discriminate turn_is_0.
+    cbn in turn_is_0, ha. apply zero_of in turn_is_0. rewrite turn_is_0, Rabs_R0 in ha.
+    assert (h := Rabs_pos angle). destruct (Req_dec angle 0) as [e | k]; [exact e |]. apply Rabs_pos_lt in k. lra. }
+  rewrite zero. destruct P as [[x y z] f]. cbn [position turn]. f_equal.
+  - unfold plus. cbn. f_equal; ring.
+  - apply functional_extensionality. intros u. apply turn_about_by_nothing.
+Qed.
+
+Lemma above_0 q : Z.ltb 0 (Qnum q) = true -> 0 < Q2R q.
+Proof. apply above_zero_of. Qed.
+
+(** A platform in a share of the tube is one of a machine that may be off by so much. *)
+Lemma share_is_tracked m v q P z : has_tube v = true -> (forall i, (i < 6)%nat -> Rabs (z i) <= Q2R q) ->
+  is_tracked (in_share m v q) P (tube_pose v P z).
+Proof.
+  unfold has_tube. rewrite !andb_true_iff. intros [[rational p] r] h. apply above_0 in p. apply above_0 in r.
+  assert (e13 := without_half_turns v 13 rational). assert (e14 := without_half_turns v 14 rational).
+  destruct (turn_by_is_about (times (coordinate v 14) (last3 z))) as [n [angle [hn [ha eq]]]].
+  assert (s1 : norm (first3 z) <= 7 / 4 * Q2R q) by (apply norm_is_small; cbn; apply h; lia).
+  assert (s2 : norm (last3 z) <= 7 / 4 * Q2R q) by (apply norm_is_small; cbn; apply h; lia).
+  exists (times (coordinate v 13) (first3 z)), n, angle. split; [| split; [exact hn | split]].
+  - cbn [tolerance in_share of_position]. rewrite norm_of_times, e13, Rabs_pos_eq by lra. rewrite !Q2R_mult.
+    replace (Q2R (7 # 4)) with (7 / 4) by (unfold Q2R; cbn; lra).
+    replace (Q2R q * Q2R (coordinate_q v 13) * (7 / 4)) with (Q2R (coordinate_q v 13) * (7 / 4 * Q2R q)) by ring.
+    apply Rmult_le_compat_l; lra.
+  - cbn [tolerance in_share of_orientation value]. apply Rle_trans with (1 := ha). apply Rle_trans with (2 := Rle_abs _).
+    rewrite norm_of_times, e14, Rabs_pos_eq by lra. rewrite !Q2R_mult.
+    replace (Q2R (7 # 2)) with (2 * (7 / 4)) by (unfold Q2R; cbn; lra).
+    replace (Q2R q * Q2R (coordinate_q v 14) * (2 * (7 / 4))) with (2 * (Q2R (coordinate_q v 14) * (7 / 4 * Q2R q))) by ring.
+    apply Rmult_le_compat_l; [lra |]. apply Rmult_le_compat_l; lra.
+  - unfold tube_pose. f_equal. apply functional_extensionality. intros u. apply eq.
+Qed.
+
+Theorem held_box_is_sound c v w start b : check_box prec c (Held v w) start b = true ->
+  forall s, Q2R start <= s <= Q2R (upto b) -> exists P, held (subject c) v w s P /\
+    (forall P', held (subject c) v w s P' -> P' = P) /\
+    forall B P', is_built (subject c) B -> is_tracked (subject c) P P' ->
+    feasible_at (subject c) B (tension_margin c) (length_margin c) P'.
+Proof.
+  unfold check_box. rewrite andb_true_iff. intros [_ h] s hs. destruct (tube b) as [k |]; [| discriminate h].
+  cbv zeta in h. rewrite !andb_true_iff in h. destruct h as [[[[[exact_m tubed] _] little] tube] poses].
+  assert (rational : no_half_turns v = true) by (unfold has_tube in tubed; rewrite !andb_true_iff in tubed; tauto).
+  assert (turns : is_turn (chord_form prec v w (middle_of prec start b) (range_of prec start b)) = true)
+    by exact (check_pose_turns _ _ _ _ _ _ _ poses).
+  destruct (places_are_in prec start b s hs) as [middle [hm [hm' hS]]].
+  destruct (tube_is_sound (subject c) v w _ _ middle s hm hm' hS rational turns k tube) as [z [inside [few [lengths only]]]].
+  assert (boxed : in_box z) by (intros i l; apply Rle_trans with (2 := few); now apply inside).
+  exists (tube_pose v (on_chord v w s) z). split; [| split].
+  - split; [| exact lengths]. destruct (parts_in_box z boxed) as [a a']. exists (first3 z), (last3 z).
+    split; [exact a | split; [exact a' | reflexivity]].
+  - intros P' [[y [y' [hy [hy' e]]]] l]. rewrite <- tube_pose_of_vecs in e. subst P'.
+    apply same_coordinates. apply only; [now apply in_box_of_vecs | exact l].
+  - intros B P' hB tracked. rewrite (exact_is_tracked _ _ _ exact_m tracked).
+    change (feasible_at (in_share (subject c) v (share k)) B (tension_margin c) (length_margin c)
+      (tube_pose v (on_chord v w s) z)).
+    apply (poses_are_sound prec c _ _ _ little (chord_follows prec v w) start b poses s hs); [exact hB |].
+    now apply share_is_tracked.
+Qed.
+
+End Precision.
+End Tubes.
