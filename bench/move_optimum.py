@@ -112,8 +112,9 @@ def binary64(text):
 # ---- the path ----
 
 def control_points(path):
-    return np.array([[binary64(x) + math.pi * turn for x, turn in zip(w["x"], w["half_turns"])]
-                     for w in path["waypoints"]])
+    """Parameters, one row a waypoint; and behind them, in a space with constraints, its normals."""
+    return np.array([[binary64(x) + math.pi * turn for x, turn in zip(w["x"], w["half_turns"])] +
+                     [binary64(x) for x in w.get("normals", [])] for w in path["waypoints"]])
 
 
 def basis(x):
@@ -144,11 +145,11 @@ def runs_of(path):
     return [(controls[a - 1:b + 2], True) for a, b in zip(stops, stops[1:])]
 
 
-def sample(controls, is_spline, where):
-    """Parameters as jets by arc length at the shares `where` of it, and the whole length."""
+def sample(controls, is_spline, count, where):
+    """Parameters, and normals, as jets by arc length of `count` parameters at the shares `where` of it, and the length."""
     if not is_spline:
         way = controls[1] - controls[0]
-        length = np.linalg.norm(way)
+        length = np.linalg.norm(way[:count])
         return [Jet(a + where * d, d / length + 0 * where, 0 * where) for a, d in zip(controls[0], way)], length
     pieces = len(controls) - 3
 
@@ -161,7 +162,7 @@ def sample(controls, is_spline, where):
     nodes, weights = np.polynomial.legendre.leggauss(5)
     half = 0.5 * pieces / steps
     inner = (knots[:-1, None] + half * (1 + nodes)).ravel()
-    rate = np.linalg.norm(at(inner)[1], axis=1).reshape(steps, -1)
+    rate = np.linalg.norm(at(inner)[1][:, :count], axis=1).reshape(steps, -1)
     until = np.concatenate([[0], np.cumsum(half * rate @ weights)])
     length = until[-1]
     wanted = where * length
@@ -171,7 +172,7 @@ def sample(controls, is_spline, where):
         k = np.minimum((s / (2 * half)).astype(int), steps - 1)
         span = s - knots[k]
         points = knots[k][:, None] + 0.5 * span[:, None] * (1 + nodes)
-        along = np.linalg.norm(at(points.ravel())[1], axis=1).reshape(points.shape) @ weights
+        along = np.linalg.norm(at(points.ravel())[1][:, :count], axis=1).reshape(points.shape) @ weights
         is_beyond = until[k] + 0.5 * span * along > wanted
         high, low = np.where(is_beyond, s, high), np.where(is_beyond, low, s)
         s = 0.5 * (low + high)
@@ -179,10 +180,10 @@ def sample(controls, is_spline, where):
     # Where control points are tripled the first and last piece are straight: any other place of it has its direction.
     x1[where <= 0], x1[where >= 1] = controls[3] - controls[2], controls[-3] - controls[-4]
     x2[(where <= 0) | (where >= 1)] = 0
-    rate = np.linalg.norm(x1, axis=1)[:, None]
+    rate = np.linalg.norm(x1[:, :count], axis=1)[:, None]
     direction = x1 / rate
     bend = x2 / rate**2
-    bend = bend - direction * np.sum(direction * bend, axis=1)[:, None]
+    bend = bend - direction * np.sum((direction * bend)[:, :count], axis=1)[:, None]
     return [Jet(x[:, p], direction[:, p], bend[:, p]) for p in range(x.shape[1])], length
 
 
@@ -222,15 +223,38 @@ def numbers(v, order):
     return np.stack([np.broadcast_to(getattr(x, ("x", "x1", "x2")[order]), count) for x in v], -1)
 
 
+def named(space, parameters):
+    return {**{p["name"]: x for p, x in zip(space["parameters"], parameters)},
+            **{k: number(v) for k, v in space["constants"].items()}}
+
+
+def on_constraints(space, jets):
+    """Parameters l + N y with C(l + N y) = 0, from jets of l and N: by Newton's method for y, whose matrix at the end is
+    that of the derivatives, too, so that each further step makes one more of them right."""
+    count, equations = len(space["parameters"]), len(space["constraints"])
+    line, normals = jets[:count], np.array(jets[count:], object).reshape(count, equations)
+    places = np.size(line[0].x)
+
+    def residuals(parameters):
+        return [jet(evaluate(c, named(space, parameters))) for c in space["constraints"]]
+    y = [Jet(np.zeros(places)) for _ in range(equations)]
+    for _ in range(12):
+        here = [x + sum((n * z for n, z in zip(row, y)), Jet(0.0)) for x, row in zip(line, normals)]
+        matrix = np.stack([np.stack([np.broadcast_to(c.x1, places) for c in residuals(
+            [Jet(x.x, row[i].x) for x, row in zip(here, normals)])], -1) for i in range(equations)], -1)
+        inverse, left = np.linalg.inv(matrix), residuals(here)
+        y = [z - sum((c * inverse[:, i, k] for k, c in enumerate(left)), Jet(0.0)) for i, z in enumerate(y)]
+    return [x + sum((n * z for n, z in zip(row, y)), Jet(0.0)) for x, row in zip(line, normals)]
+
+
 class Motion:
     """All that is needed of a motion at some places of it, by what its parameters are jets of."""
 
     def __init__(self, problem, parameters):
         space, robot, load = problem["space"], problem["robot"], problem["load"]
         if space["constraints"]:
-            raise SystemExit("move_optimum.py: got a space with constraints, expected one without")
-        names = {p["name"]: x for p, x in zip(space["parameters"], parameters)}
-        names.update({k: number(v) for k, v in space["constants"].items()})
+            parameters = on_constraints(space, parameters)
+        names = named(space, parameters)
         pose = {k: jet(evaluate(v, names)) for k, v in space["pose"].items()}
         self.p = [pose["px"], pose["py"], pose["pz"]]
         self.r = rotation(space, pose)
@@ -372,8 +396,9 @@ class Program:
         nodes = np.linspace(0, 1, points + 1)
         middles = 0.5 * (nodes[:-1] + nodes[1:])
         self.slowing = 1 / get("stopping_time_s") if get("stopping_time_s") else 0.0
-        at_nodes, length = sample(*run, nodes)
-        at_nodes, self.at = Motion(problem, at_nodes), Motion(problem, sample(*run, middles)[0])
+        count = len(problem["space"]["parameters"])
+        at_nodes, length = sample(*run, count, nodes)
+        at_nodes, self.at = Motion(problem, at_nodes), Motion(problem, sample(*run, count, middles)[0])
         self.points, self.step = points, length / points
         # Speeds: bounds of b.
         self.upper = np.full(points + 1, np.inf)

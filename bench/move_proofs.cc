@@ -78,7 +78,7 @@ nlohmann::json measure(const std::string& name, int repeats) {
 int main(int argc, char** argv) {
   const bool is_quick = argc > 1 && std::string_view(argv[1]) == "--quick";
   nlohmann::json all = nlohmann::json::array();
-  for (const char* name : {"portal-20t", "portal-20t-may-stop", "hexacrane", "roboprinter"}) {
+  for (const char* name : {"portal-20t", "portal-20t-may-stop", "hexacrane", "hexacrane-on-equations", "roboprinter"}) {
     all.push_back(taut::measure(name, is_quick ? 3 : 15));
   }
   fmt::print("{}\n", all.dump(1));

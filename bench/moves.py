@@ -21,7 +21,7 @@ QUICK = "--quick" in sys.argv[4:]
 POINTS = 300 if QUICK else 1000
 ROWS = 100_000
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cases", "moves")
-CASES = ["portal-20t", "portal-20t-may-stop", "hexacrane", "roboprinter"]
+CASES = ["portal-20t", "portal-20t-may-stop", "hexacrane", "hexacrane-on-equations", "roboprinter"]
 
 
 WORDS = ["""# Moves

@@ -6,8 +6,8 @@ From Taut Require Import Statement.
 
 (** Where a machine holds its cables' lengths: an approximate inverse of the derivative of half their squares by the
     coordinates in the tube, in multiples of 2^-[tube_scale]; how much is left, at most, of an error after one step of
-    Newton's method with it; coordinates near which the platform is, and within what distance; and the share of the tube in
-    which that is. *)
+    Newton's method with it; coordinates near which the platform is, and within what distance; and the share of the tube
+    in which that is. *)
 Record tube_box := TubeBox { tube_scale : positive; tube_inverse : six (six Z); left : Q;
                              guess : six Q; within : Q; share : Q }.
 

@@ -120,7 +120,8 @@ Fixpoint eval (p : nat -> form) (e : expr) : form :=
   end.
 
 (** By how much a platform may be turned. *)
-Definition angle_of (m : machine) : interval := I.abs (mid (eval (fun _ => constant zero) (of_orientation (tolerance m)))).
+Definition angle_of (m : machine) : interval := I.abs (mid (eval (fun _ =>
+  constant zero) (of_orientation (tolerance m)))).
 
 Definition f_rot_x c s v :=
   Vec (vx v) (f_sub (f_mul c (vy v)) (f_mul s (vz v))) (f_add (f_mul s (vy v)) (f_mul c (vz v))).
@@ -219,7 +220,8 @@ Definition units : six (six Z) :=
 
 (** ** Ellipsoids
 
-    The form of a matrix, given by rows, as a sum of positive squares (Lemmas.v), if it is one and the matrix symmetric. *)
+    The form of a matrix, given by rows, as a sum of positive squares (Lemmas.v), if it is one and the matrix symmetric.
+    *)
 
 Definition vanishes (q : Q) : bool := Qeq_bool q 0.
 Fixpoint agree (k l : list Q) : bool :=
@@ -395,7 +397,8 @@ Definition posed (m : machine) (p : nat -> form) : pose_form :=
 (** Where it may be. *)
 Definition orientation_form (m : machine) (R : vec (vec form)) : vec (vec form) :=
   let by_angle := v_turned (angle_of m) in
-  if is_zero_number (of_orientation (tolerance m)) then R else Vec (by_angle (vx R)) (by_angle (vy R)) (by_angle (vz R)).
+  if is_zero_number (of_orientation (tolerance m)) then R else Vec (by_angle (vx R)) (by_angle (vy R)) (by_angle (vz
+    R)).
 Definition position_form (m : machine) (P : vec form) : vec form := v_within 0 (of_position (tolerance m)) P.
 
 Definition check_pose (m : machine) (tension_margin length_margin : Q) (b : box) (p : pose_form) : bool :=
@@ -479,7 +482,8 @@ Definition geodesic_form (prec : F.precision) (v w : waypoint) : poses_form := f
 Definition chord_form (prec : F.precision) (v w : waypoint) : poses_form := fun m S =>
   let x := line_form prec v w m S in
   let u := Vec (x 3%nat) (x 4%nat) (x 5%nat) in
-  PoseForm (apart0 (over (f_add prec (v_dot prec u u) (f_mul prec (x 6%nat) (x 6%nat))))) (Vec (x 0%nat) (x 1%nat) (x 2%nat))
+  PoseForm (apart0 (over (f_add prec (v_dot prec u u) (f_mul prec (x 6%nat) (x 6%nat))))) (Vec (x 0%nat) (x 1%nat) (x
+    2%nat))
     (columns_of prec (f_turn_by prec u (x 6%nat))).
 
 Section Tube.
@@ -498,8 +502,10 @@ Definition scaled (q : Q) (V : vec form) : vec form := v_scale prec (constant pr
 Definition start_form (z : six Q) (i : nat) (c : cable) : form :=
   half_form (v_tight prec tube_reach (v_sub prec
     (v_add prec
-      (v_add prec (place (chord_form prec v w x S)) (scaled (coordinate_q v 13) (v_rational prec (Vec (at1 z) (at2 z) (at3 z)))))
-      (f_turn_by prec (scaled (coordinate_q v 14) (v_rational prec (Vec (at4 z) (at5 z) (at6 z)))) (constant prec (one prec))
+      (v_add prec (place (chord_form prec v w x S)) (scaled (coordinate_q v 13) (v_rational prec (Vec (at1 z) (at2 z)
+        (at3 z)))))
+      (f_turn_by prec (scaled (coordinate_q v 14) (v_rational prec (Vec (at4 z) (at5 z) (at6 z)))) (constant prec (one
+        prec))
         (arm_range c)))
     (v_rational prec (base c)))) (length_form i).
 
@@ -515,7 +521,8 @@ Definition any_vector (ball : nat) : vec form :=
 Definition tube_form (i : nat) (c : cable) : form :=
   half_form (v_sub prec
     (v_add prec (v_add prec (v_whole (place (chord_form prec v w x S))) (scaled (coordinate_q v 13) (any_vector 0)))
-                (f_turn_by prec (scaled (coordinate_q v 14) (any_vector 1)) (constant prec (one prec)) (v_whole (arm_range c))))
+                (f_turn_by prec (scaled (coordinate_q v 14) (any_vector 1)) (constant prec (one prec)) (v_whole
+                  (arm_range c))))
     (v_rational prec (base c))) (whole (length_form i)).
 Definition row_of_slopes (f : form) : six interval :=
   let in_ball b := match nth b (slopes f) None with Some u => u | None => Vec (zero prec) (zero prec) (zero prec) end in
@@ -531,7 +538,8 @@ Definition check_tube (b : tube_box) : bool :=
   let C := map6 (map6 (number prec (tube_scale b))) (tube_inverse b) in
   let starts := zip6 (start_form (guess b)) indices (cables m) in
   let A := transposed (zip6 (fun i c => row_of_slopes (tube_form i c)) indices (cables m)) in
-  let E := zip6 (fun c unit => zip6 (fun a z => sub prec (integer prec z) (sum prec (zip6 (mul prec) c a))) A unit) C units in
+  let E := zip6 (fun c unit => zip6 (fun a z => sub prec (integer prec z) (sum prec (zip6 (mul prec) c a))) A unit) C
+    units in
   let rho := fold6 I.join (map6 (fun row => sum prec (map6 I.abs row)) E) in
   let eta := fold6 I.join (map6 (fun c =>
     I.abs (range prec tube_reach (f_sum prec (zip6 (fun a f => f_mul prec (constant prec a) f) c starts)))) C) in
@@ -569,7 +577,8 @@ Fixpoint motions (prec : F.precision) (m : machine) (l : law) (path : list waypo
   | v :: rest =>
       match l, rest with
       | Straight, w :: _ => Explicit (fun x S => posed prec m (line_form prec v w x S)) :: motions prec m l rest
-      | Spline, b :: c :: d :: _ => Explicit (fun x S => posed prec m (spline_form prec v b c d x S)) :: motions prec m l rest
+      | Spline, b :: c :: d :: _ => Explicit (fun x S => posed prec m (spline_form prec v b c d x S)) :: motions prec
+        m l rest
       | Geodesic, w :: _ => Explicit (geodesic_form prec v w) :: motions prec m l rest
       | Lengths, w :: _ => Held v w :: motions prec m l rest
       | _, _ => []
@@ -583,11 +592,13 @@ Definition is_joined (l : law) (path : list waypoint) : bool :=
   match l with Geodesic => pairs turns_meet path | Lengths => pairs tubes_nest path | _ => true end.
 
 (** The middle of a box, and all of it. *)
-Definition middle_of (prec : F.precision) (start : Q) (b : box) : interval := fraction prec (Qred ((start + upto b) * (1 # 2))).
+Definition middle_of (prec : F.precision) (start : Q) (b : box) : interval := fraction prec (Qred ((start + upto b) *
+  (1 # 2))).
 Definition range_of (prec : F.precision) (start : Q) (b : box) : interval :=
   I.join (from_to prec start (upto b)) (middle_of prec start b).
 
-Definition check_poses (prec : F.precision) (c : certificate) (m : machine) (q : poses_form) (start : Q) (b : box) : bool :=
+Definition check_poses (prec : F.precision) (c : certificate) (m : machine) (q : poses_form) (start : Q) (b : box) :
+  bool :=
   let x := middle_of prec start b in
   let S := range_of prec start b in
   check_pose prec (sub prec S x, radii prec m) m (tension_margin c) (length_margin c) b (q x S).

@@ -95,8 +95,10 @@ Proof.
   change (orbit (S n)) with (step (orbit n)).
   assert (c : Rabs (step (orbit n) i - step guess i) <= rho * within)
     by (apply step_contracts; [apply guess_in_box | now apply near_in_box | exact p | exact IH | exact l]).
-  assert (z := guess_steps_little i l). assert (t := Rabs_triang (step (orbit n) i - step guess i) (step guess i - guess i)).
-  replace (step (orbit n) i - step guess i + (step guess i - guess i)) with (step (orbit n) i - guess i) in t by ring. lra.
+  assert (z := guess_steps_little i l). assert (t := Rabs_triang (step (orbit n) i - step guess i) (step guess i -
+    guess i)).
+  replace (step (orbit n) i - step guess i + (step guess i - guess i)) with (step (orbit n) i - guess i) in t by ring.
+    lra.
 Qed.
 
 Lemma orbit_in_box n : in_box (orbit n).
@@ -116,7 +118,8 @@ Proof.
   assert (e : ex_series d).
   { apply (ex_series_le d (fun n => rho ^ n * (within * (1 - rho)))); [intros n; exact (orbit_slows n i l) |].
     destruct (ex_series_geom rho) as [v hv]; [rewrite Rabs_pos_eq by apply rho_is_positive; exact small |].
-    exists (within * (1 - rho) * v). apply (is_series_ext (fun n => scal (within * (1 - rho)) (rho ^ n))); [intros n; apply Rmult_comm |].
+    exists (within * (1 - rho) * v). apply (is_series_ext (fun n => scal (within * (1 - rho)) (rho ^ n))); [intros n;
+      apply Rmult_comm |].
     exact (is_series_scal (within * (1 - rho)) _ v hv). }
   destruct e as [x h]. exists (x + guess i). apply is_lim_seq_incr_1.
   apply (is_lim_seq_ext (fun n => sum_n d n + guess i)).
@@ -145,7 +148,8 @@ Proof.
   set (z := fun i => match i with 0%nat => x0 | 1%nat => x1 | 2%nat => x2 | 3%nat => x3 | 4%nat => x4 | _ => x5 end).
   assert (lim : forall i, (i < 6)%nat -> is_lim_seq (fun n => orbit n i) (z i)) by (apply each_of_six; assumption).
   assert (close : forall i, (i < 6)%nat -> Rabs (z i - guess i) <= within).
-  { intros i l. apply (is_lim_seq_le (fun n => Rabs (orbit n i - guess i)) (fun _ => within) (Rabs (z i - guess i)) within).
+  { intros i l. apply (is_lim_seq_le (fun n => Rabs (orbit n i - guess i)) (fun _ =>
+    within) (Rabs (z i - guess i)) within).
     - intros n. now apply orbit_is_near.
     - apply (is_lim_seq_abs _ (z i - guess i)).
       apply (is_lim_seq_minus' _ (fun _ => guess i) (z i) (guess i)); [now apply lim | apply is_lim_seq_const].

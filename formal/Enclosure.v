@@ -101,9 +101,11 @@ Proof. apply nothing_is_known. rewrite I.nai_correct. exact I. Qed.
 Lemma nth_repeat_below {A : Type} (x y : A) n i : (i < n)%nat -> nth i (repeat x n) y = x.
 Proof. revert i. induction n as [| n IH]; intros i l; [lia |]. destruct i; cbn; [reflexivity | apply IH; lia]. Qed.
 
-Definition v_is_in (g : vec R) (v : vec interval) : Prop := is_in (vx g) (vx v) /\ is_in (vy g) (vy v) /\ is_in (vz g) (vz v).
+Definition v_is_in (g : vec R) (v : vec interval) : Prop := is_in (vx g) (vx v) /\ is_in (vy g) (vy v) /\
+  is_in (vz g) (vz v).
 Definition in_block (g : vec R) (u : block) : Prop := match u with None => g = Vec 0 0 0 | Some v => v_is_in g v end.
-Definition in_blocks (g : nat -> vec R) (l : list block) : Prop := forall b, (b < balls)%nat -> in_block (g b) (nth b l None).
+Definition in_blocks (g : nat -> vec R) (l : list block) : Prop := forall b, (b < balls)%nat ->
+  in_block (g b) (nth b l None).
 
 Lemma nth_b_add k l b : nth b (b_add prec k l) None = b_plus prec (nth b k None) (nth b l None).
 Proof.
@@ -145,7 +147,8 @@ Qed.
 Lemma no_blocks : in_blocks (fun _ => Vec 0 0 0) [].
 Proof. intros b _. destruct b; reflexivity. Qed.
 
-Lemma b_only_holds ball g v : v_is_in g v -> in_blocks (fun b => if Nat.eqb b ball then g else Vec 0 0 0) (b_only ball v).
+Lemma b_only_holds ball g v : v_is_in g v -> in_blocks (fun b =>
+  if Nat.eqb b ball then g else Vec 0 0 0) (b_only ball v).
 Proof.
   intros h b _. unfold b_only. destruct (Nat.eqb_spec b ball) as [-> | n].
   - rewrite app_nth2 by (rewrite repeat_length; lia). rewrite repeat_length, Nat.sub_diag. exact h.
@@ -327,7 +330,8 @@ Proof.
 Qed.
 
 (** What m and s lead to is in the same form, narrowed by its slopes. *)
-Lemma tight_encloses reach f q q' : is_in 0 (fst reach) -> is_in (of_place t) (fst reach) -> List.length (snd reach) = balls ->
+Lemma tight_encloses reach f q q' : is_in 0 (fst reach) -> is_in (of_place t) (fst reach) ->
+  List.length (snd reach) = balls ->
   deviates_within (of_ball t) balls (snd reach) -> encloses f q q' -> encloses (tight prec reach f) q q'.
 Proof.
   intros z o n he [a [b [c [k [[d g] e]]]]]. rewrite <- n in he.
@@ -340,12 +344,15 @@ Proof.
       intros b0 l. destruct (he b0 l) as [r [small hr]]. exists r. split; [| exact hr].
       rewrite norm_of_times. destruct hu as [-> | ->]; [| now rewrite Rabs_R1, Rmult_1_l].
       rewrite Rabs_R0, Rmult_0_l. apply Rle_trans with (2 := small). apply norm_is_positive. }
-  assert (at_m : is_in q (add prec (mid f) (add prec (mul prec (slope f) (fst reach)) (b_change prec (snd reach) (slopes f))))).
+  assert (at_m : is_in q (add prec (mid f) (add prec (mul prec (slope f) (fst reach)) (b_change prec (snd reach)
+    (slopes f))))).
   { assert (h := within 0 (or_introl eq_refl)). rewrite (sum_over_same _ _ (fun _ => 0)), sum_over_zeros in h.
     - replace q with (q + (of_place k * (0 * of_place t) + 0)) by ring. exact h.
     - intros b0 _. destruct (of_ball k b0), (of_ball t b0). unfold dot, times. cbn. ring. }
-  assert (at_s : is_in q' (add prec (mid f) (add prec (mul prec (slope f) (fst reach)) (b_change prec (snd reach) (slopes f))))).
-  { assert (h := within 1 (or_intror eq_refl)). rewrite (sum_over_same _ _ (fun b => dot (of_ball k b) (of_ball t b))) in h.
+  assert (at_s : is_in q' (add prec (mid f) (add prec (mul prec (slope f) (fst reach)) (b_change prec (snd reach)
+    (slopes f))))).
+  { assert (h := within 1 (or_intror eq_refl)). rewrite (sum_over_same _ _ (fun b =>
+    dot (of_ball k b) (of_ball t b))) in h.
     - rewrite e. unfold moved. rewrite Rmult_1_l in h. exact h.
     - intros b0 _. destruct (of_ball k b0), (of_ball t b0). unfold dot, times. cbn. ring. }
   split; [exact a | split; [apply I.meet_correct; assumption | split; [apply I.meet_correct; assumption |]]].

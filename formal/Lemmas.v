@@ -98,7 +98,8 @@ Proof.
       intros zero b l. destruct b as [| b]; [lra |]. apply (e ltac:(lra) b). lia. }
     destruct (p balls (fun b => dot (of_ball t b) (of_ball t b)) (fun b => square _)) as [s e].
     unfold moved in z. assert (q0 := Rle_0_sqr (of_place t)). unfold Rsqr in q0. split; [nra |].
-    intros b l. assert (d := e ltac:(nra) b l). cbn beta in d. destruct (of_ball t b) as [x y w]. unfold dot in d. cbn in d.
+    intros b l. assert (d := e ltac:(nra) b l). cbn beta in d. destruct (of_ball t b) as [x y w]. unfold dot in d.
+      cbn in d.
     f_equal; nra.
   - exists (k_times ((q' - q) / moved t t) t). unfold sloped. rewrite moved_times. now field.
 Qed.
@@ -203,7 +204,8 @@ Proof.
   - destruct z; [| cbn in len; lia]. destruct y; cbn; lra.
   - cbn [fst] in pos. destruct y as [| c y].
     + destruct z as [| x z]; cbn [spread form lin]; [lra |].
-      destruct (IH nil z ltac:(cbn in len; lia)) as [_ [h _]]. assert (0 <= (x + lin k z) * (x + lin k z)) by apply Rle_0_sqr.
+      destruct (IH nil z ltac:(cbn in len; lia)) as [_ [h _]]. assert (0 <= (x + lin k z) * (x + lin k z)) by apply
+        Rle_0_sqr.
       assert (0 <= a * ((x + lin k z) * (x + lin k z))) by (apply Rmult_le_pos; lra). lra.
     + assert (u : 0 <= c * c / a) by (apply Rmult_le_pos; [nra | left; now apply Rinv_0_lt_compat]).
       destruct z as [| x z].

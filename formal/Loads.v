@@ -105,14 +105,16 @@ Qed.
 (** ** Rows and wrenches *)
 
 Lemma along_plus y v w : along_row y (wrench_plus v w) = along_row y v + along_row y w.
-Proof. destruct y as [a b], v as [c d], w as [e f]. unfold along_row, wrench_plus. cbn [force moment fst snd]. by_coordinates. Qed.
+Proof. destruct y as [a b], v as [c d], w as [e f]. unfold along_row, wrench_plus. cbn [force moment fst snd].
+  by_coordinates. Qed.
 
 Lemma along_times y k w : along_row y (wrench_times k w) = k * along_row y w.
 Proof. destruct y as [a b], w as [e f]. unfold along_row, wrench_times. cbn [force moment fst snd]. by_coordinates. Qed.
 
 Lemma along_force b P y point f : along_row y (force_at b P point f) = dot (covector y (arm b P point)) f.
 Proof.
-  destruct y as [h k]. unfold along_row, force_at, covector. cbn [force moment fst snd]. generalize (arm b P point). by_coordinates.
+  destruct y as [h k]. unfold along_row, force_at, covector. cbn [force moment fst snd]. generalize (arm b P point).
+    by_coordinates.
 Qed.
 
 Lemma along_moment y v : along_row y (pure_moment v) = dot (snd y) v.

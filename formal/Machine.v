@@ -51,7 +51,8 @@ Lemma six_of_plus v w : six_of (wrench_plus v w) = zip6 Rplus (six_of v) (six_of
 Proof. reflexivity. Qed.
 
 Lemma six_of_injective v w : six_of v = six_of w -> v = w.
-Proof. destruct v as [[x y z] [d e f]], w as [[x' y' z'] [d' e' f']]. cbv. intros h. injection h. intros. subst. reflexivity. Qed.
+Proof. destruct v as [[x y z] [d e f]], w as [[x' y' z'] [d' e' f']]. cbv. intros h. injection h. intros. subst.
+  reflexivity. Qed.
 
 Lemma balanced_by_densities f k : (k < 6)%nat ->
   nth6 (six_of (balanced b P f)) k = apply6 densities_matrix (fun i => nth6 f i / length_of i) k.
@@ -75,7 +76,8 @@ Proof.
     repeat split; try (apply (lengths 0%nat); lia); try (apply (lengths 1%nat); lia); try (apply (lengths 2%nat); lia);
       try (apply (lengths 3%nat); lia); try (apply (lengths 4%nat); lia); try (apply (lengths 5%nat); lia). }
   intros w h. destruct (loads w h) as [M [below tensions]].
-  destruct (SixEquations.solved_six densities_matrix C rho rows small (nth6 (six_of w)) x0 M below) as [x [e [u [near y]]]].
+  destruct (SixEquations.solved_six densities_matrix C rho rows small (nth6 (six_of w)) x0 M below) as [x [e [u [near
+    y]]]].
   assert (nonzero : forall i, (i < 6)%nat -> length_of i <> 0) by (intros i l; apply Rgt_not_eq, positive, l).
   set (f := Six (length_of 0 * x 0%nat) (length_of 1 * x 1%nat) (length_of 2 * x 2%nat) (length_of 3 * x 3%nat)
                 (length_of 4 * x 4%nat) (length_of 5 * x 5%nat)).
@@ -96,7 +98,8 @@ Proof.
     { intros i l. rewrite f_is by exact l.
       rewrite <- (u (fun i => nth6 g i / length_of i)); [field; now apply nonzero | | exact l].
       intros k lk. rewrite <- balanced_by_densities by exact lk. now rewrite hg. }
-    destruct g. unfold f in *. f_equal; [apply (r 0%nat) | apply (r 1%nat) | apply (r 2%nat) | apply (r 3%nat) | apply (r 4%nat) |
+    destruct g. unfold f in *. f_equal; [apply (r 0%nat) | apply (r 1%nat) | apply (r 2%nat) | apply (r 3%nat)
+      | apply (r 4%nat) |
       apply (r 5%nat)]; lia.
   - assert (t : forall i, (i < 6)%nat -> inside (tension (nth6 (cables m) i)) tension_margin (nth6 f i)).
     { intros i l. rewrite f_is by exact l. replace (x i) with (x0 i + (x i - x0 i)) by ring.

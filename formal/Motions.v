@@ -33,7 +33,8 @@ Definition follows (f : poses_form) (q : R -> pose) : Prop :=
   is_turn (f m S) = true ->
   is_rigid (q middle) /\ is_rigid (q s) /\ pose_encloses t (f m S) (q middle) (q s).
 
-Lemma posed_follows m f q : parameters_follow f q -> follows (fun x S => posed prec m (f x S)) (fun s => pose_at m (q s)).
+Lemma posed_follows m f q : parameters_follow f q -> follows (fun x S => posed prec m (f x S)) (fun s =>
+  pose_at m (q s)).
 Proof.
   intros h middle s x S t hm hm' hs ht turns. cbn [posed is_turn] in turns.
   split; [now apply angles_are_rigid | split; [now apply angles_are_rigid |]]. now apply posed_encloses, h.
@@ -72,7 +73,8 @@ Proof.
   assert (two := integer_is_in prec 2). assert (six := integer_is_in prec 6).
   assert (here := place_encloses _ _ _ _ t hm hm' hs ht).
   repeat first [apply add_encloses | (apply mul_encloses; [exact here |])];
-    apply constant_encloses; repeat first [assumption | apply add_is_in | apply sub_is_in | apply mul_is_in | apply div_is_in].
+    apply constant_encloses; repeat first [assumption | apply add_is_in | apply sub_is_in | apply mul_is_in
+      | apply div_is_in].
 Qed.
 
 Lemma without_half_turns w i : no_half_turns w = true -> coordinate w i = Q2R (coordinate_q w i).
@@ -111,7 +113,8 @@ Proof.
   destruct turns as [[hv hw] hc].
   assert (rel := between_is_rational v w hv hw). rewrite eq in rel. cbn [fst snd] in rel.
   assert (c_not_0 : Q2R c <> 0).
-  { intros z. assert (Qeq_bool c 0 = true); [| congruence]. apply Qeq_bool_iff, eqR_Qeq. rewrite z. unfold Q2R. cbn. lra. }
+  { intros z. assert (Qeq_bool c 0 = true); [| congruence]. apply Qeq_bool_iff, eqR_Qeq. rewrite z. unfold Q2R. cbn.
+    lra. }
   assert (sq : square (quaternion_of v) <> 0).
   { apply (squares_are_not_0 _ (quaternion_of w)). now rewrite rel. }
   unfold on_geodesic. rewrite rel. cbn [vector_part scalar_part].
@@ -132,7 +135,8 @@ Proof.
     apply turn_by_encloses; [apply v_rational_encloses | apply constant_encloses, fraction_is_in |].
     destruct (is_vector u) eqn:moves; [| now rewrite !no_turn by now apply still].
     apply turn_about_encloses; [apply unit_encloses | | exact e].
-    apply mul_encloses; [now apply place_encloses |]. apply constant_encloses. apply mul_is_in; [apply (integer_is_in prec 2) |].
+    apply mul_encloses; [now apply place_encloses |]. apply constant_encloses.
+      apply mul_is_in; [apply (integer_is_in prec 2) |].
     apply atan_is_in, div_is_in; [apply norm_of_is_in, fractions_are_in | apply fraction_is_in].
 Qed.
 
@@ -144,7 +148,8 @@ Proof.
   set (x := line_form prec v w m S) in *.
   assert (u : v_encloses t (Vec (x 3%nat) (x 4%nat) (x 5%nat)) (vector_part (q middle)) (vector_part (q s)))
     by (split; [| split]; apply line).
-  assert (sq : encloses t (f_add prec (v_dot prec (Vec (x 3%nat) (x 4%nat) (x 5%nat)) (Vec (x 3%nat) (x 4%nat) (x 5%nat)))
+  assert (sq : encloses t (f_add prec (v_dot prec (Vec (x 3%nat) (x 4%nat) (x 5%nat)) (Vec (x 3%nat) (x 4%nat) (x
+    5%nat)))
     (f_mul prec (x 6%nat) (x 6%nat))) (square (q middle)) (square (q s)))
     by (apply add_encloses; [now apply v_dot_encloses | apply mul_encloses; apply line]).
   destruct sq as [_ [sm [ss _]]].

@@ -17,7 +17,8 @@ Lemma bound (w y : 'cV[F]_n.+1) (M : F) : y = w + E *m y -> (forall i, `|w i 0| 
 Proof.
 move=> e b i.
 have [k top] : exists k, forall j, `|y j 0| <= `|y k 0|.
-  by case: (@Order.TotalTheory.arg_maxP _ F [finType of 'I_n.+1] ord0 predT (fun j => `|y j 0|) isT) => k _ h; exists k => j; apply: h.
+  by case: (@Order.TotalTheory.arg_maxP _ F [finType of 'I_n.+1] ord0 predT (fun j => `|y j 0|) isT) => k _ h;
+    exists k => j; apply: h.
 have s : `|y k 0| <= M + rho * `|y k 0|.
   rewrite {1}e mxE; apply: le_trans (ler_norm_add _ _) _; apply: ler_add; first exact: b.
   rewrite mxE; apply: le_trans (ler_norm_sum _ _ _) _.

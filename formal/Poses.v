@@ -65,7 +65,8 @@ Proof.
   unfold below. intros h a b. assert (0 < y - x) by (eapply above0_is_true; [exact h | now apply sub_is_in]). lra.
 Qed.
 
-Lemma strictly_is_inside limits margin x i : strictly prec limits margin i = true -> is_in x i -> inside limits margin x.
+Lemma strictly_is_inside limits margin x i : strictly prec limits margin i = true -> is_in x i ->
+  inside limits margin x.
 Proof.
   unfold strictly, inside. rewrite andb_true_iff. intros [a b] h. split.
   - rewrite <- Q2R_plus. eapply below_is_true; [exact a | apply fraction_is_in | exact h].
@@ -174,8 +175,10 @@ Lemma quad_of_reduced r k rows z w : List.length rows = List.length k ->
 Proof.
   revert rows z. induction k as [| x k IH]; intros [| s rows] z l; try discriminate l; [destruct z; cbn; ring |].
   destruct z as [| z1 z]; cbn [reduced map quad lin]; [ring |]. rewrite IH by (injection l; trivial).
-  assert (e : lin (map Q2R (if vanishes x then s else less_times x s r)) w = lin (map Q2R s) w - Q2R x * lin (map Q2R r) w).
-  { destruct (vanishes x) eqn:z0; [apply zero_of in z0; rewrite z0; ring |]. now rewrite less_times_is, lin_of_less, lin_of_times. }
+  assert (e : lin (map Q2R (if vanishes x then s else less_times x s r)) w = lin (map Q2R s) w - Q2R x * lin (map Q2R
+    r) w).
+  { destruct (vanishes x) eqn:z0; [apply zero_of in z0; rewrite z0; ring |].
+    now rewrite less_times_is, lin_of_less, lin_of_times. }
   rewrite e. ring.
 Qed.
 
@@ -192,7 +195,8 @@ Lemma squares_are_the_form n : forall rows l, squares n rows = Some l ->
   forall z, quad (map (map Q2R) rows) z z = Lemmas.form (real_squares l) z.
 Proof.
   induction n as [| n IH]; intros rows l h.
-  - destruct rows; [| discriminate h]. injection h as <-. split; [constructor | split; [reflexivity | now intros [| x z]]].
+  - destruct rows; [| discriminate h]. injection h as <-. split; [constructor | split;
+    [reflexivity | now intros [| x z]]].
   - destruct rows as [| [| a r] rows]; try discriminate h. cbn [squares] in h.
     destruct (Z.ltb 0 (Qnum a) && agree (map (hd 0%Q) rows) r) eqn:ok; [| discriminate h].
     apply andb_true_iff in ok. destruct ok as [pos same]. apply above_zero_of in pos.
@@ -203,7 +207,8 @@ Proof.
     assert (hk : forall z, Q2R a * lin (map Q2R k) z = lin (map Q2R r) z).
     { intros z. unfold k. rewrite map_map. rewrite <- lin_of_times, map_map. f_equal. apply map_ext. intros x.
       rewrite qred_is, Q2R_div; [field; lra |]. intros z0. apply Qeq_eqR in z0. unfold Q2R in z0 at 2. cbn in z0. lra. }
-    intros [| x z]; [reflexivity |]. cbn [map quad lin real_squares fst snd]. rewrite quad_peeled, hd_map, heads, tl_map.
+    intros [| x z]; [reflexivity |]. cbn [map quad lin real_squares fst snd].
+      rewrite quad_peeled, hd_map, heads, tl_map.
     cbn [Lemmas.form]. change (map _ l') with (real_squares l'). rewrite <- eq.
     rewrite quad_of_reduced by (unfold k; rewrite !map_length in *; exact many).
     rewrite <- (hk z). ring.
@@ -224,7 +229,8 @@ Lemma spread_is_in l : forall y Y, Forall2 is_in y Y -> is_in (spread (real_squa
 Proof.
   induction l as [| [a k] l IH]; intros y Y h; [apply (integer_is_in prec 0) |].
   destruct h as [| c i y Y hc h]; [apply (integer_is_in prec 0) |]. cbn [real_squares map spread spread_range fst snd].
-  apply add_is_in; [apply div_is_in; [now apply sqr_is_in | apply fraction_is_in] |]. apply IH. now apply less_range_is_in.
+  apply add_is_in; [apply div_is_in; [now apply sqr_is_in | apply fraction_is_in] |]. apply IH.
+    now apply less_range_is_in.
 Qed.
 
 Lemma ellipsoid_is_in b P c cI center shift shape w l : (forall k, (k < 6)%nat -> is_in (c k) (nth6 cI k)) ->
@@ -344,7 +350,8 @@ Lemma v_turned_encloses n angle e i V u u' : norm n = 1 -> Rabs angle <= e -> e 
   of_ball t 1 = moves_about n angle ->
   v_encloses V u u' -> v_encloses (v_turned prec i V) u (turn_about n angle u').
 Proof.
-  intros unit he small hi ball [[a [b [c [k [[hk kb] ek]]]]] [[a1 [b1 [c1 [k1 [[hk1 kb1] ek1]]]]] [a2 [b2 [c2 [k2 [[hk2 kb2] ek2]]]]]]].
+  intros unit he small hi ball [[a [b [c [k [[hk kb] ek]]]]] [[a1 [b1 [c1 [k1 [[hk1 kb1] ek1]]]]] [a2 [b2 [c2 [k2
+    [[hk2 kb2] ek2]]]]]]].
   assert (up : 0 <= cos angle).
   { assert (p := PI2_3_2). assert (h := Rle_abs angle). assert (h' := Rle_abs (- angle)). rewrite Rabs_Ropp in h'.
     apply cos_ge_0; lra. }
@@ -352,7 +359,8 @@ Proof.
   set (change := symmetric (mul prec i (norm_of prec (Vec (over (vx V)) (over (vy V)) (over (vz V)))))).
   assert (r : is_in (e * norm u') (mul prec i (norm_of prec (Vec (over (vx V)) (over (vy V)) (over (vz V)))))).
   { apply mul_is_in; [exact hi |]. apply norm_of_is_in. exact (conj c (conj c1 c2)). }
-  assert (little : Rabs angle * norm u' <= e * norm u') by (apply Rmult_le_compat_r; [apply norm_is_positive | exact he]).
+  assert (little : Rabs angle * norm u' <= e * norm u') by (apply Rmult_le_compat_r;
+    [apply norm_is_positive | exact he]).
   assert (near : forall x x' j, is_in x j -> Rabs (x' - x) <= Rabs angle * norm u' -> is_in x' (add prec j change)).
   { intros x x' j h1 h2. apply (around_is_in x x' (e * norm u')); [exact h1 | exact r | lra]. }
   assert (same : forall x j, is_in x j -> is_in x (add prec j change)).
@@ -368,7 +376,8 @@ Proof.
   assert (hz : is_in (vz (plus u' d)) (add prec (over (vz V)) change)).
   { apply (near (vz u')); [exact c2 |]. cbn. replace (vz u' + vz d - vz u') with (vz d) by ring. lra. }
   assert (zero_in' := integer_is_in prec 0).
-  assert (part : forall f q q' q'' g unit k, is_in q (mid f) -> is_in q (over f) -> is_in q'' (add prec (over f) change) ->
+  assert (part : forall f q q' q'' g unit k, is_in q (mid f) -> is_in q (over f) ->
+    is_in q'' (add prec (over f) change) ->
       in_slopes k f -> sloped k t q q' -> v_is_in g unit -> q'' = q' + dot g (of_ball t 1) ->
       enc (Form (mid f) (add prec (over f) change) (slope f) (b_add prec (slopes f) (b_only 1 unit))) q q'').
   { intros f q q' q'' g unit0 l h1 h2 h3 [h4 h5] h6 h7 h8.
@@ -383,17 +392,20 @@ Proof.
     + exact (near _ _ _ c (Rle_trans _ _ _ m1 move)).
     + exact (conj hk kb).
     + exact (conj zero_in' (conj hz (neg_is_in _ _ hy))).
-    + rewrite eq, ball. generalize (moves_about n angle), (plus u' d). intros [w1 w2 w3] [v1 v2 v3]. unfold dot. cbn. ring.
+    + rewrite eq, ball. generalize (moves_about n angle), (plus u' d). intros [w1 w2 w3] [v1 v2 v3]. unfold dot. cbn.
+      ring.
   - apply (part _ _ (vy u') _ (Vec (- vz (plus u' d)) 0 (vx (plus u' d))) _ k1); try assumption.
     + exact (near _ _ _ c1 (Rle_trans _ _ _ m2 move)).
     + exact (conj hk1 kb1).
     + exact (conj (neg_is_in _ _ hz) (conj zero_in' hx)).
-    + rewrite eq, ball. generalize (moves_about n angle), (plus u' d). intros [w1 w2 w3] [v1 v2 v3]. unfold dot. cbn. ring.
+    + rewrite eq, ball. generalize (moves_about n angle), (plus u' d). intros [w1 w2 w3] [v1 v2 v3]. unfold dot. cbn.
+      ring.
   - apply (part _ _ (vz u') _ (Vec (vy (plus u' d)) (- vx (plus u' d)) 0) _ k2); try assumption.
     + exact (near _ _ _ c2 (Rle_trans _ _ _ m3 move)).
     + exact (conj hk2 kb2).
     + exact (conj hy (conj (neg_is_in _ _ hx) zero_in')).
-    + rewrite eq, ball. generalize (moves_about n angle), (plus u' d). intros [w1 w2 w3] [v1 v2 v3]. unfold dot. cbn. ring.
+    + rewrite eq, ball. generalize (moves_about n angle), (plus u' d). intros [w1 w2 w3] [v1 v2 v3]. unfold dot. cbn.
+      ring.
 Qed.
 
 Lemma rot_x_encloses F q q' V u u' : enc F q q' -> v_encloses V u u' ->
@@ -432,17 +444,20 @@ Lemma turn_about_encloses N n F q q' V u u' : v_encloses N n n -> enc F q q' -> 
 Proof.
   intros hn h hv. assert (hc := cos_encloses prec t _ _ _ h). assert (hs := sin_encloses prec t _ _ _ h).
   assert (one_enc := one_encloses). unfold f_turn_about, turn_about. cbv zeta.
-  repeat first [assumption | apply v_add_encloses | apply v_scale_encloses | apply v_cross_encloses | apply v_dot_encloses |
+  repeat first [assumption | apply v_add_encloses | apply v_scale_encloses | apply v_cross_encloses
+    | apply v_dot_encloses |
     apply mul_encloses | apply sub_encloses].
 Qed.
 
 Lemma turn_by_encloses U u u' W w w' V x x' : v_encloses U u u' -> enc W w w' -> v_encloses V x x' ->
   v_encloses (f_turn_by prec U W V) (turn_by (Quaternion u w) x) (turn_by (Quaternion u' w') x').
 Proof.
-  intros hu hw hv. assert (two := constant_encloses prec t 2 _ (integer_is_in prec 2)). assert (one_enc := one_encloses).
+  intros hu hw hv. assert (two := constant_encloses prec t 2 _ (integer_is_in prec 2)).
+    assert (one_enc := one_encloses).
   unfold f_turn_by, turn_by. cbv zeta. cbn [vector_part scalar_part]. rewrite <- (Rmult_1_l (/ (dot u u + w * w))),
     <- (Rmult_1_l (/ (dot u' u' + w' * w'))).
-  repeat first [assumption | apply v_scale_encloses | apply div_encloses | apply v_add_encloses | apply v_cross_encloses |
+  repeat first [assumption | apply v_scale_encloses | apply div_encloses | apply v_add_encloses
+    | apply v_cross_encloses |
     apply v_dot_encloses | apply mul_encloses | apply sub_encloses | apply add_encloses].
 Qed.
 
@@ -452,7 +467,8 @@ Proof. exact (conj (fraction_is_in prec _) (conj (fraction_is_in prec _) (fracti
 Lemma unit_encloses u : v_encloses (unit_form prec u) (unit_along (real_vec u)) (unit_along (real_vec u)).
 Proof.
   assert (k : is_in (/ norm (real_vec u)) (div prec (one prec) (norm_of prec (fractions prec u)))).
-  { rewrite <- (Rmult_1_l (/ _)). apply div_is_in; [apply (integer_is_in prec 1) | apply norm_of_is_in, fractions_are_in]. }
+  { rewrite <- (Rmult_1_l (/ _)). apply div_is_in; [apply (integer_is_in prec 1)
+    | apply norm_of_is_in, fractions_are_in]. }
   split; [| split]; cbn; apply constant_encloses, mul_is_in; first [exact k | apply fraction_is_in].
 Qed.
 
@@ -477,8 +493,8 @@ Qed.
 
 Section Pose.
 
-(** A machine that deviates, and where its platform is while it is meant to be at [to_s]; and the machine as it is stated,
-    at [at_m]. *)
+(** A machine that deviates, and where its platform is while it is meant to be at [to_s]; and the machine as it is
+    stated, at [at_m]. *)
 Variables (at_m to_s : pose) (p : pose_form).
 Hypotheses (m_is_rigid : is_rigid at_m) (s_is_rigid : is_rigid to_s) (p_encloses : pose_encloses p at_m to_s).
 Variables (m : machine) (B : built) (off axis : vec R) (angle : R).
@@ -537,7 +553,8 @@ Proof.
 Qed.
 
 (** A point that is near to a stated one. *)
-Lemma point_encloses (point : vec Q) (within : Q) ball u : (ball < balls)%nat -> of_ball t ball = minus u (real_vec point) ->
+Lemma point_encloses (point : vec Q) (within : Q) ball u : (ball < balls)%nat ->
+  of_ball t ball = minus u (real_vec point) ->
   near within u point -> v_encloses (v_within prec ball within (v_rational prec point)) (real_vec point) u.
 Proof.
   intros l e h. rewrite <- (plus_of_minus u (real_vec point)) at 1. rewrite <- e.
@@ -571,7 +588,8 @@ Proof.
 Qed.
 
 Lemma arm_of_rational_encloses point :
-  v_encloses (arm_form prec reach R_form m (v_rational prec point)) (arm A at_m (real_vec point)) (arm B at_s (real_vec point)).
+  v_encloses (arm_form prec reach R_form m (v_rational prec point)) (arm A at_m (real_vec point)) (arm B at_s
+    (real_vec point)).
 Proof. apply arm_encloses, v_rational_encloses. Qed.
 
 Lemma covector_encloses Y y r r' V : v_encloses (fst Y) (fst y) (fst y) -> v_encloses (snd Y) (snd y) (snd y) ->
@@ -588,7 +606,8 @@ Qed.
 Lemma turn_is_sum u w : turn at_s (plus u w) = plus (turn at_s u) (turn at_s w).
 Proof.
   change (turn at_s) with turned_off.
-  rewrite (turned_off_is_linear (plus u w)), (turned_off_is_linear u), (turned_off_is_linear w). apply combination_of_plus.
+  rewrite (turned_off_is_linear (plus u w)), (turned_off_is_linear u), (turned_off_is_linear w).
+    apply combination_of_plus.
 Qed.
 
 Lemma turn_keeps_norm u : norm (turn at_s u) = norm u.
@@ -650,15 +669,18 @@ Proof.
       * now apply div_is_in.
       * now apply disc_is_below.
   - destruct (segment_is_near d l w u h' hu) as [f [near eq]].
-    assert (a : enc (f_div prec (v_dot prec H (v_rational prec d)) (constant prec (size prec reach (v_rational prec d))))
+    assert (a : enc (f_div prec (v_dot prec H (v_rational prec d)) (constant prec (size prec reach (v_rational prec
+      d))))
         (dot h (real_vec d) / norm (real_vec d)) (dot h' (real_vec d) / norm (real_vec d))).
-    { apply div_encloses; [apply v_dot_encloses; [exact e | apply rational] |]. apply constant_encloses. eapply size_is_in, rational. }
+    { apply div_encloses; [apply v_dot_encloses; [exact e | apply rational] |]. apply constant_encloses.
+      eapply size_is_in, rational. }
     destruct (multiples_hold l w _ _ _ a) as [x y]. eexists; eexists. split; [exact x |]. cbn [snd].
     eapply symmetric_is_in; [exact y |]. rewrite eq, <- Rmult_minus_distr_r, Rabs_mult.
     apply Rmult_le_compat_r; [apply Rabs_pos | exact near].
 Qed.
 
-Lemma weight_holds Y y l u g c r mass center : v_encloses (fst Y) (fst y) (fst y) -> v_encloses (snd Y) (snd y) (snd y) ->
+Lemma weight_holds Y y l u g c r mass center : v_encloses (fst Y) (fst y) (fst y) ->
+  v_encloses (snd Y) (snd y) (snd y) ->
   Q2R l <= mass <= Q2R u -> norm (minus center (real_vec c)) <= Q2R r ->
   part_holds (weight_part prec reach R_form m Y l u g c r)
     (along_row y (force_at B at_s center (times mass (real_vec g)))).
@@ -666,19 +688,23 @@ Proof.
   intros hf hm hmass hc. rewrite along_force.
   set (delta := minus center (real_vec c)) in hc.
   assert (eq : dot (covector y (arm B at_s center)) (times mass (real_vec g)) =
-    mass * (dot (covector y (arm B at_s (real_vec c))) (real_vec g) + dot (turn at_s delta) (cross (real_vec g) (snd y)))).
+    mass * (dot (covector y (arm B at_s (real_vec c))) (real_vec g) + dot (turn at_s delta) (cross (real_vec g) (snd
+      y)))).
   { replace (arm B at_s center) with (plus (arm B at_s (real_vec c)) (turn at_s delta)).
     - apply dot_of_moved.
     - unfold arm. rewrite <- turn_is_sum. f_equal. symmetry. apply minus_in_two_steps. }
-  assert (below : Rabs (dot (turn at_s delta) (cross (real_vec g) (snd y))) <= Q2R r * norm (cross (real_vec g) (snd y))).
+  assert (below : Rabs (dot (turn at_s delta) (cross (real_vec g) (snd y))) <= Q2R r * norm (cross (real_vec g) (snd
+    y))).
   { apply Rle_trans with (1 := dot_is_below _ _). apply Rmult_le_compat_r; [apply norm_is_positive |].
     rewrite turn_keeps_norm. exact hc. }
-  assert (a := v_dot_encloses _ _ _ _ _ _ (covector_encloses Y y _ _ _ hf hm (arm_of_rational_encloses c)) (v_rational_encloses g)).
+  assert (a := v_dot_encloses _ _ _ _ _ _ (covector_encloses Y y _ _ _ hf hm (arm_of_rational_encloses c))
+    (v_rational_encloses g)).
   destruct (multiples_hold l u _ _ _ a) as [x z]. eexists; eexists. split; [exact x |]. cbn [weight_part snd].
   rewrite eq. eapply symmetric_is_in; [| now apply weight_is_near; [exact hmass | exact below]].
   apply add_is_in; [exact z |]. apply mul_is_in.
   - apply add_is_in; [eapply abs_is_in, middle_is_in | apply half_range_is_in].
-  - apply mul_is_in; [apply fraction_is_in |]. eapply size_is_in. apply v_cross_encloses; [apply v_rational_encloses | exact hm].
+  - apply mul_is_in; [apply fraction_is_in |]. eapply size_is_in.
+    apply v_cross_encloses; [apply v_rational_encloses | exact hm].
 Qed.
 
 (** Two covectors and load cases: what a wrench makes is [dot h (force w) + dot k (moment w)]. *)
@@ -748,7 +774,8 @@ Proof.
   - cbn [item_part]. rewrite along_row_of. unfold ellipsoid_part.
     destruct (squares 6 (list_of (map6 list_of shape))) as [l |] eqn:e; [| apply only_holds, nai_has_all].
     exists (along_six c (map6 Q2R center)), (along_six c (map6 Q2R center)).
-    split; [now apply constant_encloses, along_is_in | exact (ellipsoid_is_in B at_s c cI center shift shape w l hc e h)].
+    split; [now apply constant_encloses, along_is_in | exact (ellipsoid_is_in B at_s c cI center shift shape w l hc e
+      h)].
   - destruct h as [mass [center [hmass [near ->]]]]. apply weight_holds; assumption.
   - destruct h as [u [hu ->]]. rewrite along_force, dot_in_axes. eapply vectors_hold; [| exact hu].
     apply seen_encloses, cov.
@@ -762,7 +789,8 @@ Lemma load_holds l : forall w, in_items B at_s l w ->
   part_holds (load_part prec reach R_form m cI l) (along_row (row_of c) w).
 Proof.
   induction l as [| i l IH]; intros w h.
-  - cbn [in_items] in h. subst w. change (part_holds (only prec (zero prec)) (along_row (row_of c) (pure_moment (Vec 0 0 0)))).
+  - cbn [in_items] in h. subst w. change (part_holds (only prec (zero prec)) (along_row (row_of c) (pure_moment (Vec 0
+    0 0)))).
     apply only_holds. replace (along_row _ _) with 0; [apply (integer_is_in prec 0) |].
     rewrite along_moment. unfold dot. cbn [vx vy vz]. ring.
   - destruct h as [a [b [-> [ha hb]]]].
@@ -786,7 +814,8 @@ Lemma columns_enclose i k : (i < 6)%nat -> (k < 6)%nat ->
       (densities_matrix A at_m k i) (densities_matrix B at_s k i).
 Proof.
   intros li lk. unfold column_forms, densities_matrix. rewrite !nth6_zip.
-  replace (nth6 (Six 0%nat 1%nat 2%nat 3%nat 4%nat 5%nat) i) with i by (clear lk; revert i li; apply each_of_six; reflexivity).
+  replace (nth6 (Six 0%nat 1%nat 2%nat 3%nat 4%nat 5%nat) i) with i by (clear lk; revert i li; apply each_of_six;
+    reflexivity).
   destruct (anchors_are_near i li) as [hb hp].
   assert (eb := ball_of_base i li). assert (ep := ball_of_platform i li).
   replace (nth6 (anchors A) i) with (real_vec (base (nth6 (cables m) i)), real_vec (platform (nth6 (cables m) i)))
@@ -901,7 +930,8 @@ Proof.
   intros axis. split; [intros [x y z]; unfold pose_at; cbn [turn]; destruct (pose_angles m);
     try (unfold combination, rot_z, rot_y, rot_x, plus, times, unit_x, unit_y, unit_z; cbn [vx vy vz]; f_equal; ring);
     apply turn_about_axis_is_linear |].
-  assert (unit : forall q, cos q * cos q = 1 - sin q * sin q) by (intros q; assert (h := sin2_cos2 q); unfold Rsqr in h; lra).
+  assert (unit : forall q, cos q * cos q = 1 - sin q * sin q) by (intros q; assert (h := sin2_cos2 q);
+    unfold Rsqr in h; lra).
   assert (X : forall q v1 v2, dot (rot_x q v1) (rot_x q v2) = dot v1 v2).
   { intros q [x y z] [x' y' z']. unfold dot, rot_x. cbn [vx vy vz]. assert (e := unit q).
     replace (x * x' + _ * _ + _ * _) with

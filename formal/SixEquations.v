@@ -65,7 +65,8 @@ exists (from_vector x); split; [|split; [|split]].
   by apply/matrixP => k j; rewrite (ord1 j) apply6E ez ?ltn_ord // mxE.
 - by move=> i l; have := h (Ordinal l); move/RleP; rewrite (to_x i l) mxE [X in (_ + X)%R]mxE mxE.
 - move=> i l; pose y := (x - to_vector x0)%R.
-  have E : y = (to_matrix C *m (to_vector w - to_matrix A *m to_vector x0) + (1%:M - to_matrix C *m to_matrix A) *m y)%R.
+  have E : y = (to_matrix C *m (to_vector w - to_matrix A *m to_vector x0) + (1%:M - to_matrix C *m to_matrix A) *m
+    y)%R.
     by rewrite -e -mulmxBr mulmxA mulmxBl mul1mx [RHS]addrC subrK.
   have yE (j : 'I_6) : y j ord0 = from_vector x j - x0 j.
     by rewrite /y mxE [X in (_ + X)%R]mxE mxE (to_x j (ltn_ord j)) (_ : Ordinal _ = j) //; apply/val_inj.
@@ -88,7 +89,8 @@ Theorem solved_six (A C : nat -> nat -> R) (rho : R) :
                                       total (fun j => error6 C A i j * (x j - x0 j))).
 Proof.
 move=> rows small w x0 M b.
-have [x [e [u [h k]]]] := solved6 A C rho (fun i l => rows i (elimT ssrnat.ltP l)) small w x0 M (fun i l => b i (elimT ssrnat.ltP l)).
+have [x [e [u [h k]]]] := solved6 A C rho (fun i l => rows i (elimT ssrnat.ltP l)) small w x0 M (fun i l =>
+  b i (elimT ssrnat.ltP l)).
 exists x; split; [|split; [|split]].
 - by move=> i /ssrnat.ltP l; apply: e.
 - by move=> z ez i /ssrnat.ltP l; apply: u => // j /ssrnat.ltP; apply: ez.

@@ -5,7 +5,8 @@ From Coq Require Import Reals QArith Qreals ZArith Lra Lia Bool List FunctionalE
 From Flocq Require Import Zaux.
 From Interval Require Import Float.Specific_sig Interval.Interval Interval.Float_full Real.Xreal.
 From Interval Require Import Float.Basic Float.Sig.
-From Taut Require Import Statement Certificate Lemmas Loads Turns Checker Enclosure Machine Contraction Poses Motions Tubes.
+From Taut Require Import Statement Certificate Lemmas Loads Turns Checker Enclosure Machine Contraction Poses Motions
+  Tubes.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -125,7 +126,8 @@ Lemma a_tube_has_a_size v w l : check_boxes prec c (Held v w) 0 l = true ->
   no_half_turns v = true /\ 0 < coordinate v 13 /\ 0 < coordinate v 14.
 Proof.
   intros h. assert (b : exists b, check_box prec c (Held v w) 0 b = true).
-  { destruct l as [| b [| b' l]]; [discriminate h | |]; exists b; cbn [check_boxes] in h; rewrite andb_true_iff in h; tauto. }
+  { destruct l as [| b [| b' l]]; [discriminate h | |]; exists b; cbn [check_boxes] in h; rewrite andb_true_iff in h;
+    tauto. }
   destruct b as [b hb]. unfold check_box in hb. rewrite andb_true_iff in hb. destruct hb as [_ hb].
   destruct (tube b) as [k |]; [| discriminate hb]. cbv zeta in hb. rewrite !andb_true_iff in hb.
   destruct hb as [[[[[_ t] _] _] _] _]. unfold has_tube in t. rewrite !andb_true_iff in t. destruct t as [[r p] q].
@@ -135,7 +137,8 @@ Qed.
 Lemma nested v w : no_half_turns v = true -> no_half_turns w = true -> contains_tube v w = true ->
   coordinate w 13 <= coordinate v 13 /\ coordinate w 14 <= coordinate v 14.
 Proof.
-  intros hv hw. unfold contains_tube. rewrite andb_true_iff, !(without_half_turns v), !(without_half_turns w) by assumption.
+  intros hv hw. unfold contains_tube. rewrite andb_true_iff, !(without_half_turns v),
+    !(without_half_turns w) by assumption.
   intros [a b]. apply Qle_bool_iff, Qle_Rle in a. apply Qle_bool_iff, Qle_Rle in b. now split.
 Qed.
 
@@ -173,7 +176,8 @@ Proof.
     apply Qeq_bool_iff, eqR_Qeq. rewrite z. unfold Q2R. cbn. lra.
   - destruct path as [| w [| x path]]; try exact I.
     assert (all := motions_are_sound _ _ (motions_match Lengths (v :: w :: x :: path)) _ h).
-    destruct boxes as [| b [| b' boxes]]; [discriminate h | cbn [motions check_motions] in h; rewrite andb_false_r in h; discriminate h |].
+    destruct boxes as [| b [| b' boxes]]; [discriminate h | cbn [motions check_motions] in h;
+      rewrite andb_false_r in h; discriminate h |].
     cbn [motions check_motions] in h. rewrite !andb_true_iff in h. destruct h as [h [h' h'']].
     cbn [is_joined pairs] in pairwise. rewrite andb_true_iff in pairwise. destruct pairwise as [nest pairwise].
     split.

@@ -50,8 +50,8 @@ Definition sum6 : six R -> R := fold6 Rplus.
     length have to stay strictly between two limits each. *)
 Record cable := Cable { base : vec Q; platform : vec Q; tension : Q * Q; length : Q * Q }.
 
-(** Sets of vectors, forces or moments: all up to a magnitude; those of them at right angles to [normal]; and f times the
-    unit vector along [direction], for every f from [lower] to [upper]. *)
+(** Sets of vectors, forces or moments: all up to a magnitude; those of them at right angles to [normal]; and f times
+    the unit vector along [direction], for every f from [lower] to [upper]. *)
 Inductive vectors := Ball (radius : Q) | Disc (radius : Q) (normal : vec Q)
   | Along (direction : vec Q) (lower upper : Q).
 
@@ -59,10 +59,10 @@ Inductive vectors := Ball (radius : Q) | Disc (radius : Q) (normal : vec Q)
 Inductive axes := OfWorld | OfPlatform.
 
 (** The load is a sum of sets of wrenches. An ellipsoid is the set of all w with (w - c)' shape (w - c) <= 1, where c is
-    [center] plus any share of [shift] from -1 to 1; its six coordinates are force and moment. A weight has any mass from
-    [lower] to [upper], and its centre of gravity anywhere within [tolerance] of [point], a point in the platform's axes.
-    Forces act at such a point. Load cases are wrenches, force and moment about such a point, and all that are between
-    them. *)
+    [center] plus any share of [shift] from -1 to 1; its six coordinates are force and moment. A weight has any mass
+    from [lower] to [upper], and its centre of gravity anywhere within [tolerance] of [point], a point in the platform's
+    axes. Forces act at such a point. Load cases are wrenches, force and moment about such a point, and all that are
+    between them. *)
 Inductive item :=
   | Ellipsoid (center shift : six Q) (shape : six (six Q))
   | Weight (lower upper : Q) (gravity : vec Q) (point : vec Q) (tolerance : Q)
@@ -80,8 +80,8 @@ Inductive angles := TiltTorsion (phi theta sigma : expr) | RollPitchYaw (roll pi
   | Zyz (alpha beta gamma : expr) | About (axis : vec Q) (angle : expr).
 
 (** How far a machine may be from what is stated, in any direction: each cable's two anchors, and the load point; and
-    how far the platform may be from where it is meant to be, and by what angle turned: an expression without parameters, of
-    which only the magnitude counts. *)
+    how far the platform may be from where it is meant to be, and by what angle turned: an expression without
+    parameters, of which only the magnitude counts. *)
 Record tolerances := Tolerances { of_anchors : six (Q * Q); of_load_point : Q; of_position : Q; of_orientation : expr }.
 
 Record machine := Machine { cables : six cable; load_point : vec Q; load : list item;
@@ -259,7 +259,8 @@ Definition between (p q : quaternion) : quaternion :=
              (scalar_part p * scalar_part q + dot (vector_part p) (vector_part q)).
 
 (** The coordinates of a waypoint that is a pose are its position, and a quaternion, vector part first. The position is
-    straight and the turn at a constant rate, the shorter way round; half a turn, where the scalar part is 0, is none. *)
+    straight and the turn at a constant rate, the shorter way round; at half a turn, where the scalar part is 0, there is
+    no shorter one, and the definition divides by 0. *)
 Definition quaternion_of (w : waypoint) : quaternion :=
   Quaternion (Vec (coordinate w 3) (coordinate w 4) (coordinate w 5)) (coordinate w 6).
 Definition on_geodesic (v w : waypoint) (s : R) : pose :=
@@ -268,10 +269,10 @@ Definition on_geodesic (v w : waypoint) (s : R) : pose :=
   Pose (Vec (on_line v w s 0) (on_line v w s 1) (on_line v w s 2))
        (fun u => turn_by (quaternion_of v) (turn_about (unit_along (vector_part q)) (s * angle) u)).
 
-(** Of a waypoint where lengths are straight, these come behind its pose, and then how wide the tube is that begins there,
-    around poses whose positions and quaternions are straight: by how much each coordinate of the position may be off, and
-    each of the vector part of a quaternion with the scalar part 1. In the tube, the platform is at the pose at which the
-    cables of the machine itself have these lengths. *)
+(** Of a waypoint where lengths are straight, these come behind its pose, and then how wide the tube is that begins
+    there, around poses whose positions and quaternions are straight: by how much each coordinate of the position may be
+    off, and each of the vector part of a quaternion with the scalar part 1. In the tube, the platform is at the pose at
+    which the cables of the machine itself have these lengths. *)
 Definition on_chord (v w : waypoint) (s : R) : pose :=
   let x := on_line v w s in
   Pose (Vec (x 0) (x 1) (x 2))%nat (turn_by (Quaternion (Vec (x 3) (x 4) (x 5)) (x 6)))%nat.

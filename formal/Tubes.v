@@ -50,7 +50,8 @@ Lemma in_box_of_vecs y z : in_box (of_vecs y z) <-> in_unit_box y /\ in_unit_box
 Proof.
   split.
   - intros h. split; (split; [| split]); first [exact (h 0%nat ltac:(lia)) | exact (h 1%nat ltac:(lia)) |
-      exact (h 2%nat ltac:(lia)) | exact (h 3%nat ltac:(lia)) | exact (h 4%nat ltac:(lia)) | exact (h 5%nat ltac:(lia))].
+      exact (h 2%nat ltac:(lia)) | exact (h 3%nat ltac:(lia)) | exact (h 4%nat ltac:(lia))
+        | exact (h 5%nat ltac:(lia))].
   - intros [[a [b c]] [d [e f]]]. unfold in_box. apply each_of_six; assumption.
 Qed.
 
@@ -61,7 +62,8 @@ Proof. intros h. unfold tube_pose, first3, last3. now rewrite !h by lia. Qed.
 
 Lemma norm_is_small u e : Rabs (vx u) <= e -> Rabs (vy u) <= e -> Rabs (vz u) <= e -> norm u <= 7 / 4 * e.
 Proof.
-  destruct u as [x y z]. cbn [vx vy vz]. intros a b c. assert (p : 0 <= e) by (apply Rle_trans with (2 := a); apply Rabs_pos).
+  destruct u as [x y z]. cbn [vx vy vz]. intros a b c. assert (p : 0 <= e) by (apply Rle_trans with (2 := a);
+    apply Rabs_pos).
   rewrite <- (Rabs_pos_eq (norm _)) by apply norm_is_positive. apply abs_below; [lra |]. rewrite <- dot_is_square.
   unfold dot. cbn [vx vy vz].
   assert (sq : forall q, Rabs q <= e -> q * q <= e * e).
@@ -72,7 +74,8 @@ Qed.
 Lemma atan_is_below x : 0 <= x -> 0 <= atan x <= x.
 Proof.
   intros h. destruct (Req_dec x 0) as [-> | n]; [rewrite atan_0; lra |].
-  destruct (MVT_cor2 atan (fun y => / (1 + y ^ 2)) 0 x ltac:(lra)) as [y [e _]]; [intros y _; apply derivable_pt_lim_atan |].
+  destruct (MVT_cor2 atan (fun y => / (1 + y ^ 2)) 0 x ltac:(lra)) as [y [e _]]; [intros y _;
+    apply derivable_pt_lim_atan |].
   rewrite atan_0 in e. assert (p : 0 < 1 + y ^ 2) by nra. assert (i := Rinv_0_lt_compat _ p).
   assert (o : / (1 + y ^ 2) <= 1) by (rewrite <- Rinv_1; apply Rinv_le_contravar; nra). nra.
 Qed.
@@ -146,7 +149,8 @@ Proof.
   rewrite nth_repeat_below by exact l. apply (integer_is_in prec 0).
 Qed.
 
-Notation tight_enc := (v_tight_encloses prec along (tube_reach prec x S) along_has_0 along_is_in eq_refl along_is_within).
+Notation tight_enc := (v_tight_encloses prec along (tube_reach prec x S) along_has_0 along_is_in eq_refl
+  along_is_within).
 
 Lemma chord_is_enclosed : is_rigid (chord middle) /\ is_rigid (chord s) /\
   pose_encloses along (chord_form prec v w x S) (chord middle) (chord s).
@@ -169,7 +173,8 @@ Proof.
   apply sub_encloses; [now apply v_dot_encloses | now apply mul_encloses].
 Qed.
 
-Lemma anchors_of_itself i : nth6 (anchors (itself m)) i = (real_vec (base (nth6 (cables m) i)), real_vec (platform (nth6 (cables m) i))).
+Lemma anchors_of_itself i : nth6 (anchors (itself m)) i = (real_vec (base (nth6 (cables m) i)),
+  real_vec (platform (nth6 (cables m) i))).
 Proof. unfold itself. cbn [anchors]. now rewrite nth6_map. Qed.
 
 Lemma start_is_enclosed z i : exists q, encloses along (start_form prec v w x S z i (nth6 (cables m) i)) q
@@ -180,11 +185,13 @@ Proof.
   eexists. unfold start_form. apply half_encloses; [| apply length_is_enclosed].
   apply tight_enc. unfold cable_vector, tube_pose. cbn [fst snd position turn].
   rewrite !(without_half_turns v) by exact v_is_rational.
-  assert (scale : forall q u, v_encloses along (scaled prec q (v_rational prec u)) (times (Q2R q) (real_vec u)) (times (Q2R q) (real_vec u)))
+  assert (scale : forall q u, v_encloses along (scaled prec q (v_rational prec u)) (times (Q2R q) (real_vec u)) (times
+    (Q2R q) (real_vec u)))
     by (intros q u; apply v_scale_encloses; [apply constant_encloses, fraction_is_in | apply v_rational_encloses]).
   apply v_sub_encloses; [| apply v_rational_encloses]. apply v_add_encloses.
   - apply v_add_encloses; [exact h | exact (scale _ (Vec (at1 z) (at2 z) (at3 z)))].
-  - apply turn_by_encloses; [exact (scale _ (Vec (at4 z) (at5 z) (at6 z))) | apply one_encloses | apply arm_is_enclosed].
+  - apply turn_by_encloses; [exact (scale _ (Vec (at4 z) (at5 z) (at6 z))) | apply one_encloses
+    | apply arm_is_enclosed].
 Qed.
 
 (** *** From one place in the tube to another *)
@@ -207,12 +214,14 @@ Lemma any_encloses ball unit c q q' : (ball < balls)%nat -> Rabs q <= 1 -> Rabs 
   q' = q + dot c (of_ball across ball) -> encloses across (any_form prec ball unit) q q'.
 Proof.
   intros l a b hc e. assert (one_in := integer_is_in prec 1).
-  assert (ends : forall y, Rabs y <= 1 -> is_in y (symmetric (one prec))) by (intros y h; now apply (symmetric_is_in 1)).
+  assert (ends : forall y, Rabs y <= 1 -> is_in y (symmetric (one prec))) by (intros y h;
+    now apply (symmetric_is_in 1)).
   split; [now apply ends | split; [now apply ends | split; [now apply ends |]]].
   exists (Change 0 (fun k => if Nat.eqb k ball then c else Vec 0 0 0)). split; [split |].
   - apply (integer_is_in prec 0).
   - now apply b_only_holds.
-  - unfold sloped, moved. cbn [of_place of_ball]. rewrite sum_over_one by exact l. rewrite e. cbn [of_place]. unfold across. cbn [of_place]. ring.
+  - unfold sloped, moved. cbn [of_place of_ball]. rewrite sum_over_one by exact l. rewrite e. cbn [of_place].
+    unfold across. cbn [of_place]. ring.
 Qed.
 
 Lemma any_vector_encloses ball u u' : (ball < balls)%nat -> in_unit_box u -> in_unit_box u' ->
@@ -220,12 +229,16 @@ Lemma any_vector_encloses ball u u' : (ball < balls)%nat -> in_unit_box u -> in_
 Proof.
   intros l [a [b c]] [a' [b' c']] e. assert (o := integer_is_in prec 0). assert (i := integer_is_in prec 1).
   split; [| split]; cbn [any_vector vx vy vz].
-  - apply (any_encloses ball _ (Vec 1 0 0)); try assumption; [exact (conj i (conj o o)) |]. rewrite e. unfold dot, minus. cbn. ring.
-  - apply (any_encloses ball _ (Vec 0 1 0)); try assumption; [exact (conj o (conj i o)) |]. rewrite e. unfold dot, minus. cbn. ring.
-  - apply (any_encloses ball _ (Vec 0 0 1)); try assumption; [exact (conj o (conj o i)) |]. rewrite e. unfold dot, minus. cbn. ring.
+  - apply (any_encloses ball _ (Vec 1 0 0)); try assumption; [exact (conj i (conj o o)) |]. rewrite e.
+    unfold dot, minus. cbn. ring.
+  - apply (any_encloses ball _ (Vec 0 1 0)); try assumption; [exact (conj o (conj i o)) |]. rewrite e.
+    unfold dot, minus. cbn. ring.
+  - apply (any_encloses ball _ (Vec 0 0 1)); try assumption; [exact (conj o (conj o i)) |]. rewrite e.
+    unfold dot, minus. cbn. ring.
 Qed.
 
-Lemma scaled_encloses q V u u' : v_encloses across V u u' -> v_encloses across (scaled prec q V) (times (Q2R q) u) (times (Q2R q) u').
+Lemma scaled_encloses q V u u' : v_encloses across V u u' -> v_encloses across (scaled prec q V) (times (Q2R q) u)
+  (times (Q2R q) u').
 Proof. intros h. apply v_scale_encloses; [apply constant_encloses, fraction_is_in | exact h]. Qed.
 
 Lemma parts_in_box y : in_box y -> in_unit_box (first3 y) /\ in_unit_box (last3 y).
@@ -233,7 +246,8 @@ Proof.
   intros h. split; (split; [| split]); cbn; apply h; lia.
 Qed.
 
-Lemma excess_is_enclosed i : (i < 6)%nat -> encloses across (tube_form prec v w x S i (nth6 (cables m) i)) (g z i) (g z' i).
+Lemma excess_is_enclosed i : (i < 6)%nat -> encloses across (tube_form prec v w x S i (nth6 (cables m) i)) (g z i) (g
+  z' i).
 Proof.
   intros li. destruct chord_is_enclosed as [_ [_ [h _]]].
   destruct (parts_in_box z z_in) as [a b]. destruct (parts_in_box z' z'_in) as [a' b'].
@@ -309,7 +323,8 @@ Proof.
     - apply excess_is_0; [now apply lengths |]. rewrite (h i li). now apply same_length.
     - assert (e := h i li). apply excess_is_0 in e; [| now apply lengths]. rewrite e. symmetry. now apply same_length. }
   set (rows := zip6 (fun i c => row_of_slopes prec (tube_form prec v w x S i c)) indices (cables m)) in *.
-  set (E := zip6 (fun (c : six interval) (unit : six Z) => zip6 (fun a z => sub prec (integer prec z) (sum prec (zip6 (mul prec) c a)))
+  set (E := zip6 (fun (c : six interval) (unit : six Z) => zip6 (fun a z =>
+    sub prec (integer prec z) (sum prec (zip6 (mul prec) c a)))
     (transposed rows) unit) CI units) in hrho.
   assert (linear : forall z z', in_box z -> in_box z' -> exists A : nat -> nat -> R,
     (forall i, (i < 6)%nat -> g z' i - g z i = apply6 A (fun j => z' j - z j) i) /\
@@ -321,7 +336,8 @@ Proof.
       unfold rows. rewrite nth6_zip, index_is by exact li. exact ia. }
     exists A. split; [intros i li; apply hA; exact li |]. intros k lk.
     assert (hE : forall i, (i < 6)%nat -> forall j, (j < 6)%nat -> is_in (error6 C A i j) (nth6 (nth6 E i) j)).
-    { intros i li j lj. unfold E. rewrite !nth6_zip. unfold SixEquations.error6. rewrite <- (units_are_delta i j) by assumption.
+    { intros i li j lj. unfold E. rewrite !nth6_zip. unfold SixEquations.error6.
+      rewrite <- (units_are_delta i j) by assumption.
       apply sub_is_in; [apply integer_is_in |]. apply sum_is_in. intros l ll. rewrite nth6_zip.
       apply mul_is_in; [apply hC |]. rewrite transposed_entry by assumption. now apply hA. }
     assert (in_rho : is_in (most (fun i => total (fun j => Rabs (error6 C A i j))))
@@ -329,17 +345,22 @@ Proof.
     { apply most_is_in. intros i li. rewrite nth6_map. apply sum_is_in. intros j lj. rewrite nth6_map.
       now apply abs_is_in, hE. }
     assert (r := below_is_true _ _ _ _ _ hrho in_rho (fraction_is_in prec (left b))).
-    apply Rle_trans with (2 := Rlt_le _ _ r). exact (most_bounds (fun i => total (fun j => Rabs (error6 C A i j))) k lk). }
-  assert (starts : forall i, (i < 6)%nat -> Rabs (total (fun k => C i k * g z0 k)) <= Q2R (within b) * (1 - Q2R (left b))).
+    apply Rle_trans with (2 := Rlt_le _ _ r). exact (most_bounds (fun i => total (fun j =>
+      Rabs (error6 C A i j))) k lk). }
+  assert (starts : forall i, (i < 6)%nat -> Rabs (total (fun k =>
+    C i k * g z0 k)) <= Q2R (within b) * (1 - Q2R (left b))).
   { assert (in_eta : is_in (most (fun i => Rabs (total (fun k => C i k * g z0 k))))
       (fold6 I.join (map6 (fun c => I.abs (range prec (tube_reach prec x S) (f_sum prec
-        (zip6 (fun a f => f_mul prec (constant prec a) f) c (zip6 (start_form prec v w x S (guess b)) indices (cables m)))))) CI))).
+        (zip6 (fun a f => f_mul prec (constant prec a) f) c (zip6 (start_form prec v w x S (guess b)) indices (cables
+          m)))))) CI))).
     { apply most_is_in. intros i li. rewrite nth6_map. apply abs_is_in.
-      destruct (six_choices (fun k q => encloses along (start_form prec v w x S (guess b) k (nth6 (cables m) k)) q (g z0 k))) as [q hq].
+      destruct (six_choices (fun k q => encloses along (start_form prec v w x S (guess b) k (nth6 (cables m) k)) q (g
+        z0 k))) as [q hq].
       { intros k lk. apply start_is_enclosed. }
       apply (range_is_in prec along (tube_reach prec x S) along_has_0 along_is_in eq_refl along_is_within _
         (total (fun k => C i k * q k))).
-      apply (f_sum_encloses prec along (tube_reach prec x S) eq_refl). intros k lk. rewrite !nth6_zip, index_is by exact lk.
+      apply (f_sum_encloses prec along (tube_reach prec x S) eq_refl). intros k lk.
+        rewrite !nth6_zip, index_is by exact lk.
       apply mul_encloses; [apply constant_encloses, hC | now apply hq]. }
     assert (e := below_is_true _ _ _ _ _ heta in_eta (fraction_is_in prec _)).
     rewrite Q2R_mult, Q2R_minus, one_of_Q in e. intros i li. apply Rle_trans with (2 := Rlt_le _ _ e).
@@ -394,10 +415,12 @@ Proof.
     replace (Q2R (7 # 4)) with (7 / 4) by (unfold Q2R; cbn; lra).
     replace (Q2R q * Q2R (coordinate_q v 13) * (7 / 4)) with (Q2R (coordinate_q v 13) * (7 / 4 * Q2R q)) by ring.
     apply Rmult_le_compat_l; lra.
-  - cbn [tolerance in_share of_orientation value]. apply Rle_trans with (1 := ha). apply Rle_trans with (2 := Rle_abs _).
+  - cbn [tolerance in_share of_orientation value]. apply Rle_trans with (1 := ha).
+    apply Rle_trans with (2 := Rle_abs _).
     rewrite norm_of_times, e14, Rabs_pos_eq by lra. rewrite !Q2R_mult.
     replace (Q2R (7 # 2)) with (2 * (7 / 4)) by (unfold Q2R; cbn; lra).
-    replace (Q2R q * Q2R (coordinate_q v 14) * (2 * (7 / 4))) with (2 * (Q2R (coordinate_q v 14) * (7 / 4 * Q2R q))) by ring.
+    replace (Q2R q * Q2R (coordinate_q v 14) * (2 * (7 / 4))) with (2 * (Q2R (coordinate_q v 14) * (7 / 4 * Q2R q)))
+      by ring.
     apply Rmult_le_compat_l; [lra |]. apply Rmult_le_compat_l; lra.
   - unfold tube_pose. f_equal. apply functional_extensionality. intros u. apply eq.
 Qed.
@@ -414,7 +437,8 @@ Proof.
   assert (turns : is_turn (chord_form prec v w (middle_of prec start b) (range_of prec start b)) = true)
     by exact (check_pose_turns _ _ _ _ _ _ _ poses).
   destruct (places_are_in prec start b s hs) as [middle [hm [hm' hS]]].
-  destruct (tube_is_sound (subject c) v w _ _ middle s hm hm' hS rational turns k tube) as [z [inside [few [lengths only]]]].
+  destruct (tube_is_sound (subject c) v w _ _ middle s hm hm' hS rational turns k tube) as [z [inside [few [lengths
+    only]]]].
   assert (boxed : in_box z) by (intros i l; apply Rle_trans with (2 := few); now apply inside).
   exists (tube_pose v (on_chord v w s) z). split; [| split].
   - split; [| exact lengths]. destruct (parts_in_box z boxed) as [a a']. exists (first3 z), (last3 z).

@@ -17,7 +17,8 @@ Qed.
 (** A chord is no longer than its arc: 2 - 2 cos a = (2 sin (a / 2))^2. *)
 Lemma chord_is_below a : 2 - 2 * cos a <= a * a.
 Proof.
-  assert (e : cos a = 1 - 2 * sin (a / 2) * sin (a / 2)) by (replace a with (2 * (a / 2)) at 1 by field; apply cos_2a_sin).
+  assert (e : cos a = 1 - 2 * sin (a / 2) * sin (a / 2)) by (replace a with (2 * (a / 2)) at 1 by field;
+    apply cos_2a_sin).
   assert (h := sin_is_below (a / 2)). apply Rsqr_le_abs_1 in h. unfold Rsqr in h. rewrite e. nra.
 Qed.
 
@@ -28,7 +29,8 @@ Lemma turn_about_is_linear n a u x y z : turn_about n a (combination u x y z) =
   combination u (turn_about n a x) (turn_about n a y) (turn_about n a z).
 Proof. unfold turn_about, combination. generalize (cos a), (sin a). revert n u x y z. by_coordinates. Qed.
 
-Lemma turn_about_of_sum n a t u k : turn_about n a (plus u (times t k)) = plus (turn_about n a u) (times t (turn_about n a k)).
+Lemma turn_about_of_sum n a t u k : turn_about n a (plus u (times t k)) = plus (turn_about n a u) (times t (turn_about
+  n a k)).
 Proof. unfold turn_about. generalize (cos a), (sin a). revert n u k. by_coordinates. Qed.
 
 Lemma turn_about_by_nothing n u : turn_about n 0 u = u.
@@ -100,7 +102,8 @@ Qed.
 
 Lemma turn_about_axis_is_linear n a u :
   turn_about n a u = combination u (turn_about n a unit_x) (turn_about n a unit_y) (turn_about n a unit_z).
-Proof. rewrite <- turn_about_is_linear. f_equal. unfold combination, unit_x, unit_y, unit_z. revert u. by_coordinates. Qed.
+Proof. rewrite <- turn_about_is_linear. f_equal. unfold combination, unit_x, unit_y, unit_z. revert u. by_coordinates.
+  Qed.
 
 Lemma unit_along_is_unit v : v <> Vec 0 0 0 -> norm (unit_along v) = 1.
 Proof.
@@ -173,7 +176,8 @@ Lemma quadratic_of_between p q u :
 Proof.
   rewrite quadratic_of_after. destruct p as [[a b c] d], q as [[e f g] h]. set (k := square (Quaternion (Vec a b c) d)).
   replace (after _ _) with (Quaternion (Vec (k * e) (k * f) (k * g)) (k * h)).
-  - destruct u as [x y z]. clearbody k. cbv [quadratic dot plus times cross vector_part scalar_part vx vy vz]. f_equal; ring.
+  - destruct u as [x y z]. clearbody k. cbv [quadratic dot plus times cross vector_part scalar_part vx vy vz].
+    f_equal; ring.
   - unfold k. cbv [square after between dot minus plus times cross vector_part scalar_part vx vy vz].
     f_equal; [f_equal |]; ring.
 Qed.
@@ -201,10 +205,12 @@ Proof.
   assert (s : dot v v = norm v * norm v) by apply dot_is_square.
   assert (one : 1 + (norm v / w) * (norm v / w) = (dot v v + w * w) / (w * w)) by (rewrite s; now field).
   assert (ww : 0 < w * w) by (apply Rsqr_pos_lt in h; exact h).
-  assert (root : sqrt (1 + (norm v / w) * (norm v / w)) * sqrt (1 + (norm v / w) * (norm v / w)) = (dot v v + w * w) / (w * w)).
+  assert (root : sqrt (1 + (norm v / w) * (norm v / w)) * sqrt (1 + (norm v / w) * (norm v / w)) = (dot v v + w * w) /
+    (w * w)).
   { rewrite sqrt_sqrt; [exact one |]. rewrite one. left. apply Rdiv_lt_0_compat; lra. }
   assert (nz : sqrt (1 + (norm v / w) * (norm v / w)) <> 0).
-  { intros z. rewrite z, Rmult_0_l in root. assert (0 < (dot v v + w * w) / (w * w)) by (apply Rdiv_lt_0_compat; lra). lra. }
+  { intros z. rewrite z, Rmult_0_l in root. assert (0 < (dot v v + w * w) / (w * w)) by (apply Rdiv_lt_0_compat; lra).
+    lra. }
   assert (c : cos (2 * atan (norm v / w)) = (w * w - dot v v) / (dot v v + w * w)).
   { rewrite cos_2a, cos_atan, sin_atan. unfold Rsqr.
     set (r := sqrt (1 + norm v / w * (norm v / w))) in *.

@@ -30,7 +30,8 @@ let entries place : json -> (string * json) list = function
 (* An object of these keys and no others; [optional] ones may be missing. *)
 let fields ?(optional = []) place keys json =
   let l = entries place json in
-  List.iter (fun (k, _) -> if not (List.mem k keys || List.mem k optional) then refuse place "the unknown key '%s'" k) l;
+  List.iter (fun (k, _) -> if not (List.mem k keys || List.mem k optional) then refuse place "the unknown key '%s'" k)
+    l;
   List.iter (fun k -> if not (List.mem_assoc k l) then refuse place "no key '%s'" k) keys;
   l
 
@@ -287,7 +288,8 @@ let tolerances json =
   let zero = fraction Int.zero Int.one in
   let all x = { at1 = x; at2 = x; at3 = x; at4 = x; at5 = x; at6 = x } in
   if json = `Null then
-    ({ of_anchors = all (zero, zero); of_load_point = zero; of_position = zero; of_orientation = Number zero }, all zero)
+    ({ of_anchors = all (zero, zero); of_load_point = zero; of_position = zero;
+      of_orientation = Number zero }, all zero)
   else begin
     let f = fields place [ "base_anchor_m"; "platform_anchor_m"; "load_point_m"; "wrench"; "position_m";
                            "orientation_rad"; "cable_length_m" ] json in
@@ -304,7 +306,8 @@ let tolerances json =
 
 let load shift json =
   let place = "problem.load" in
-  let f = fields place [ "point_m" ] ~optional:[ "wrench"; "ellipsoid"; "ellipsoid_name"; "gravity_m_s2"; "items" ] json in
+  let f = fields place [ "point_m" ] ~optional:[ "wrench"; "ellipsoid"; "ellipsoid_name"; "gravity_m_s2";
+    "items" ] json in
   let ellipsoid = match (find "wrench" f, find "ellipsoid" f) with
     | Some w, Some e -> [ Ellipsoid (six place (number place) w, shift, six place (six place (number place)) e) ]
     | None, None -> []
@@ -323,7 +326,8 @@ let cables json =
   let rec zip a b t l = match (a, b, t, l) with
     | a :: aa, b :: bb, t :: tt, l :: ll -> { base = a; platform = b; tension = t; length = l } :: zip aa bb tt ll
     | _ -> [] in
-  match zip (each vec "base_anchors_m") (each vec "platform_anchors_m") (each pair "tension_N") (each pair "length_m") with
+  match zip (each vec "base_anchors_m") (each vec "platform_anchors_m") (each pair "tension_N") (each pair "length_m")
+    with
   | [ a; b; c; d; e; f ] -> { at1 = a; at2 = b; at3 = c; at4 = d; at5 = e; at6 = f }
   | _ -> refuse place "expected six cables"
 
@@ -399,7 +403,8 @@ let held waypoints tubes =
       | [] -> ()
       | (t, _, _) :: l -> if not_above t s then refuse place "inner poses that do not rise" else rise t l in
     rise (fraction Int.zero Int.one) inner;
-    (pose @ first @ tube_of f) :: List.map (fun (s, pose, tube) -> pose @ List.map2 (between s) first last @ tube) inner in
+    (pose @ first @ tube_of f) :: List.map (fun (s, pose, tube) -> pose @ List.map2 (between s) first last @ tube)
+      inner in
   let rec all points tubes = match (points, tubes) with
     | [ (pose, lengths) ], [] -> [ pose @ lengths ]
     | a :: (b :: _ as rest), t :: tubes -> segment a b t @ all rest tubes
@@ -435,7 +440,8 @@ let tube_box json =
   let place = "boxes" in
   let f = fields place [ "scale"; "inverse"; "left"; "guess"; "within"; "share" ] json in
   { tube_scale = scale_of place f; tube_inverse = inverse_of place f; left = number place (get "left" f);
-    guess = six place (number place) (get "guess" f); within = number place (get "within" f); share = number place (get "share" f) }
+    guess = six place (number place) (get "guess" f); within = number place (get "within" f);
+      share = number place (get "share" f) }
 
 let box json =
   let place = "boxes" in
@@ -476,9 +482,9 @@ let () =
         let c = certificate (read file) (read boxes) in
         if Exact.check c then
           Printf.printf
-            "verified: everywhere along the path (%d segment%s), %sfor every machine and pose within the tolerances and \
-             every wrench of the load, exactly one list of tensions balances it, and all tensions and all lengths are \
-             strictly within their limits.\n\
+            "verified: everywhere along the path (%d segment%s), %sfor every machine and pose within the tolerances \
+             and every wrench of the load, exactly one list of tensions balances it, and all tensions and all lengths \
+             are strictly within their limits.\n\
              Not verified: how large margins are, that parameters stay in their ranges, that the path leads where the \
              query asked, and who signed.\n"
             (List.length c.boxes) (if List.length c.boxes = 1 then "" else "s")

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """taut formal with Coq, which formal/build has made ready: what is true is proved, and what is not is refused.
 
-.ci/nightly runs it; it takes some five minutes.
+.ci/nightly runs it; it takes some ten minutes.
 
 Usage: formal_proofs_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
