@@ -146,7 +146,7 @@ def runs_of(path):
 
 
 def sample(controls, is_spline, count, where):
-    """Parameters, and normals, as jets by arc length of `count` parameters at the shares `where` of it, and the length."""
+    """Parameters and normals as jets by arc length, of `count` parameters, at the shares `where` of it; its length."""
     if not is_spline:
         way = controls[1] - controls[0]
         length = np.linalg.norm(way[:count])
@@ -229,8 +229,11 @@ def named(space, parameters):
 
 
 def on_constraints(space, jets):
-    """Parameters l + N y with C(l + N y) = 0, from jets of l and N: by Newton's method for y, whose matrix at the end is
-    that of the derivatives, too, so that each further step makes one more of them right."""
+    """Parameters l + N y with C(l + N y) = 0, from jets of l and N.
+
+    By Newton's method for y: its matrix at the end is that of the derivatives, too, so that each further step makes one
+    more of them right.
+    """
     count, equations = len(space["parameters"]), len(space["constraints"])
     line, normals = jets[:count], np.array(jets[count:], object).reshape(count, equations)
     places = np.size(line[0].x)

@@ -259,8 +259,8 @@ Definition between (p q : quaternion) : quaternion :=
              (scalar_part p * scalar_part q + dot (vector_part p) (vector_part q)).
 
 (** The coordinates of a waypoint that is a pose are its position, and a quaternion, vector part first. The position is
-    straight and the turn at a constant rate, the shorter way round; at half a turn, where the scalar part is 0, there is
-    no shorter one, and the definition divides by 0. *)
+    straight and the turn at a constant rate, the shorter way round. At half a turn, where the scalar part is 0, there
+    is no shorter one, and the definition divides by 0. *)
 Definition quaternion_of (w : waypoint) : quaternion :=
   Quaternion (Vec (coordinate w 3) (coordinate w 4) (coordinate w 5)) (coordinate w 6).
 Definition on_geodesic (v w : waypoint) (s : R) : pose :=
