@@ -29,11 +29,11 @@ std::vector<HeldPose> held_poses(const Path& path) {
   for (std::size_t k = 0; k < path.segments(); ++k) {
     const Waypoint& begin = path.waypoints[k];
     const Waypoint& end = path.waypoints[k + 1];
-    poses.push_back({pose_of(begin), lengths_at(begin, end, 0), path.pose_tubes[k], k});
+    poses.push_back({pose_of(begin), lengths_at(begin, end, 0), path.pose_tubes[k], k, 0});
     for (const InnerPose& inner : path.inner_poses[k]) {
-      poses.push_back({inner.x, lengths_at(begin, end, inner.s), inner.tube, k});
+      poses.push_back({inner.x, lengths_at(begin, end, inner.s), inner.tube, k, inner.s});
     }
-    if (k + 1 == path.segments()) poses.push_back({pose_of(end), lengths_at(begin, end, 1), {}, k});
+    if (k + 1 == path.segments()) poses.push_back({pose_of(end), lengths_at(begin, end, 1), {}, k, 1});
   }
   return poses;
 }

@@ -17,6 +17,7 @@ struct HeldPose {
   std::array<Rational, 6> lengths;  ///< [m]
   PoseTube tube;                    ///< none at the end of the path
   std::size_t segment = 0;          ///< which begins here, or in which this is
+  double s = 0;                     ///< where in it
 };
 
 /// @pre the path's law is that of cable lengths, and it has a segment

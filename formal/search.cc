@@ -629,11 +629,16 @@ std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certi
         continue;
       }
       if (box.depth == kMostDepth) {
-        throw InputError(fmt::format(
-            "segment {}: got a place near s = {:.6f} where even a box of 2^-{} is too large "
-            "for Coq's arithmetic, expected more room{}",
-            (is_held ? poses[k].segment : k) + 1, std::ldexp(static_cast<double>(box.index), -box.depth), kMostDepth,
-            problem.tolerances ? " (within tolerances Coq needs more of it than taut: docs/formal.md)" : ""));
+        double place = std::ldexp(static_cast<double>(box.index), -box.depth);
+        if (is_held) {
+          const double end = poses[k + 1].segment == poses[k].segment ? poses[k + 1].s : 1;
+          place = poses[k].s + place * (end - poses[k].s);
+        }
+        throw InputError(
+            fmt::format("segment {}: got a place near s = {:.6f} where even a box of 2^-{} is too large "
+                        "for Coq's arithmetic, expected more room{}",
+                        (is_held ? poses[k].segment : k) + 1, place, kMostDepth,
+                        problem.tolerances || is_held ? " (here Coq needs more of it than taut: docs/formal.md)" : ""));
       }
       open.push_back(Box{box.depth + 1, 2 * box.index + 1});
       open.push_back(Box{box.depth + 1, 2 * box.index});

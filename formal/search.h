@@ -46,7 +46,7 @@ using SearchProgress = std::function<void(std::size_t done, std::size_t all, std
 /// One list of boxes a segment, or a pair of held_poses(), which cover it in order. Nothing where somebody asked to
 /// stop.
 /// @pre require_in_scope(certificate)
-/// @throws InputError where a box of 2^-20 of a segment is still too large.
+/// @throws InputError where a box of 2^-20 of one of these is still too large.
 [[nodiscard]] std::optional<std::vector<std::vector<Box>>> find_boxes(const Certificate& certificate,
                                                                       const SearchProgress& progress,
                                                                       const std::stop_token& stop);

@@ -388,7 +388,7 @@ let held waypoints tubes =
     let f = fields place [ "position"; "quaternion"; "lengths" ] json in
     (numbers place "position" 3 f @ numbers place "quaternion" 4 f, numbers place "lengths" 6 f) in
   let tube_of l = List.map (fun k -> binary64 place (text place (get k l))) [ "position"; "turn" ] in
-  let dyadic json =
+  let inside json =
     let x = number place json in
     if Int.sign x.qnum <= 0 || Int.geq x.qnum x.qden then refuse place "a place that is not between 0 and 1";
     x in
@@ -396,9 +396,10 @@ let held waypoints tubes =
     let f = fields place [ "position"; "turn" ] ~optional:[ "inner" ] json in
     let inner json =
       let f = fields place [ "position"; "quaternion"; "s"; "tube" ] json in
-      (dyadic (get "s" f), numbers place "position" 3 f @ numbers place "quaternion" 4 f,
+      (inside (get "s" f), numbers place "position" 3 f @ numbers place "quaternion" 4 f,
        tube_of (fields place [ "position"; "turn" ] (get "tube" f))) in
     let inner = List.map inner (Option.fold ~none:[] ~some:(elements place) (find "inner" f)) in
+    if inner = [] && List.mem_assoc "inner" f then refuse place "no inner poses";
     let rec rise s = function
       | [] -> ()
       | (t, _, _) :: l -> if not_above t s then refuse place "inner poses that do not rise" else rise t l in
@@ -467,6 +468,8 @@ let certificate json boxes =
   let bits = whole "boxes" (get "bits" all_boxes) in
   if Int.sign bits <= 0 || Int.gt bits (Int.of_int 1000) then refuse "boxes" "bits out of range";
   let motion, path = path (List.length parameters) (get "path" all) in
+  if motion = Lengths && get "tolerances" f <> `Null then
+    refuse "problem.tolerances" "tolerances of a machine that holds lengths, which Coq is not told";
   let zero = fraction Int.zero Int.one in
   { subject = { cables = cables (get "robot" f); load_point; load; pose_position; pose_angles; tolerance };
     motion; path; tension_margin = zero; length_margin = zero; bits;
@@ -482,12 +485,13 @@ let () =
         let c = certificate (read file) (read boxes) in
         if Exact.check c then
           Printf.printf
-            "verified: everywhere along the path (%d segment%s), %sfor every machine and pose within the tolerances \
+            "verified: everywhere along the path (%d %s%s), %sfor every machine and pose within the tolerances \
              and every wrench of the load, exactly one list of tensions balances it, and all tensions and all lengths \
              are strictly within their limits.\n\
              Not verified: how large margins are, that parameters stay in their ranges, that the path leads where the \
              query asked, and who signed.\n"
-            (List.length c.boxes) (if List.length c.boxes = 1 then "" else "s")
+            (List.length c.boxes) (if c.motion = Lengths then "piece" else "segment")
+            (if List.length c.boxes = 1 then "" else "s")
             (if c.motion = Lengths then "there is exactly one pose in its tube with its lengths, and there, " else "")
         else begin
           print_endline "REFUSED: the checker does not accept it with these boxes.";
