@@ -6,10 +6,8 @@ From Taut Require Import Statement.
 
 (** Where a machine holds its cables' lengths: an approximate inverse of the derivative of half their squares by the
     coordinates in the tube, in multiples of 2^-[tube_scale]; how much is left, at most, of an error after one step of
-    Newton's method with it; coordinates near which the platform is, and within what distance; and the share of the tube
-    in which that is. *)
-Record tube_box := TubeBox { tube_scale : positive; tube_inverse : six (six Z); left : Q;
-                             guess : six Q; within : Q; share : Q }.
+    Newton's method with it; and coordinates near which the platform is, and within what distance. *)
+Record tube_box := TubeBox { tube_scale : positive; tube_inverse : six (six Z); left : Q; guess : six Q; within : Q }.
 
 (** A box is a part of a segment, from where the last box ended (or 0) to [upto]. [inverse] is an approximate inverse of
     the matrix with the columns (d ; lever x d), of which the columns of J are multiples by the cables' lengths, and

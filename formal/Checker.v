@@ -533,7 +533,7 @@ Definition transposed {A : Type} (M : six (six A)) : six (six A) :=
   Six (map6 at1 M) (map6 at2 M) (map6 at3 M) (map6 at4 M) (map6 at5 M) (map6 at6 M).
 Definition indices : six nat := (Six 0 1 2 3 4 5)%nat.
 
-(** There is one pose with these lengths, and it is in this share of the tube. *)
+(** There is one pose with these lengths, and it is near the guess. *)
 Definition check_tube (b : tube_box) : bool :=
   let C := map6 (map6 (number prec (tube_scale b))) (tube_inverse b) in
   let starts := zip6 (start_form (guess b)) indices (cables m) in
@@ -544,23 +544,32 @@ Definition check_tube (b : tube_box) : bool :=
   let eta := fold6 I.join (map6 (fun c =>
     I.abs (range prec tube_reach (f_sum prec (zip6 (fun a f => f_mul prec (constant prec a) f) c starts)))) C) in
   every (map6 (fun i => above0 (over (length_form i))) indices) &&
-  every (map6 (fun z => Qle_bool (z + within b) (share b) && Qle_bool (within b - z) (share b)) (guess b)) &&
-  Qle_bool (share b) 1 && Z.ltb 0 (Qnum (1 - left b)) && below prec rho (fraction prec (left b)) &&
+  every (map6 (fun z => Qle_bool (z + within b) 1 && Qle_bool (within b - z) 1) (guess b)) &&
+  Z.ltb 0 (Qnum (1 - left b)) && below prec rho (fraction prec (left b)) &&
   below prec eta (fraction prec (within b * (1 - left b))).
 
 End Tube.
 
-(** A machine whose platform may be anywhere in a share of a tube. *)
-Definition in_share (m : machine) (v : waypoint) (q : Q) : machine :=
+(** The poses at some coordinates in the tube, and a machine whose platform may be as far from them as another in the
+    tube is whose coordinates are within q of these. *)
+Definition guess_form (prec : F.precision) (v w : waypoint) (z : six Q) : poses_form := fun x S =>
+  let p := chord_form prec v w x S in
+  let turn := f_turn_by prec (scaled prec (coordinate_q v 14) (v_rational prec (Vec (at4 z) (at5 z) (at6 z))))
+    (constant prec (one prec)) in
+  PoseForm (is_turn p)
+    (v_add prec (place p) (scaled prec (coordinate_q v 13) (v_rational prec (Vec (at1 z) (at2 z) (at3 z)))))
+    (Vec (turn (vx (images p))) (turn (vy (images p))) (turn (vz (images p)))).
+Definition near_guess (m : machine) (v : waypoint) (q : Q) : machine :=
   Machine (cables m) (load_point m) (load m) (pose_position m) (pose_angles m)
     (Tolerances (of_anchors (tolerance m)) (of_load_point (tolerance m)) (q * coordinate_q v 13 * (7 # 4))
-      (Number (q * coordinate_q v 14 * (7 # 2)))).
+      (Number (q * coordinate_q v 14 * (21 # 4)))).
 Definition is_exact (m : machine) : bool :=
   every (map6 (fun t => vanishes (fst t) && vanishes (snd t)) (of_anchors (tolerance m))) &&
   vanishes (of_load_point (tolerance m)) && vanishes (of_position (tolerance m)) &&
   is_zero_number (of_orientation (tolerance m)).
 Definition has_tube (v : waypoint) : bool :=
-  no_half_turns v && Z.ltb 0 (Qnum (coordinate_q v 13)) && Z.ltb 0 (Qnum (coordinate_q v 14)).
+  no_half_turns v && Z.ltb 0 (Qnum (coordinate_q v 13)) && Z.ltb 0 (Qnum (coordinate_q v 14)) &&
+  Qle_bool (coordinate_q v 14) (1 # 8).
 
 (** Of two tubes in a row, one has to contain the other. *)
 Definition contains_tube (v w : waypoint) : bool :=
@@ -608,10 +617,10 @@ Definition check_box (prec : F.precision) (c : certificate) (q : motion_form) (s
   match q, tube b with
   | Explicit f, _ => check_poses prec c (subject c) f start b
   | Held v w, Some h =>
-      let m := in_share (subject c) v (share h) in
+      let m := near_guess (subject c) v (within h) in
       is_exact (subject c) && has_tube v && no_half_turns w && below prec (angle_of prec m) (one prec) &&
       check_tube prec (subject c) v w (middle_of prec start b) (range_of prec start b) h &&
-      check_poses prec c m (chord_form prec v w) start b
+      check_poses prec c m (guess_form prec v w (guess h)) start b
   | Held _ _, None => false
   end.
 

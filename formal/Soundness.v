@@ -130,7 +130,7 @@ Proof.
     tauto. }
   destruct b as [b hb]. unfold check_box in hb. rewrite andb_true_iff in hb. destruct hb as [_ hb].
   destruct (tube b) as [k |]; [| discriminate hb]. cbv zeta in hb. rewrite !andb_true_iff in hb.
-  destruct hb as [[[[[_ t] _] _] _] _]. unfold has_tube in t. rewrite !andb_true_iff in t. destruct t as [[r p] q].
+  destruct hb as [[[[[_ t] _] _] _] _]. unfold has_tube in t. rewrite !andb_true_iff in t. destruct t as [[[r p] q] _].
   rewrite !(without_half_turns v) by exact r. split; [exact r | split; now apply above_zero_of].
 Qed.
 

@@ -80,18 +80,51 @@ Proof.
   assert (o : / (1 + y ^ 2) <= 1) by (rewrite <- Rinv_1; apply Rinv_le_contravar; nra). nra.
 Qed.
 
-(** A quaternion with the scalar part 1 turns by no more than twice its vector part. *)
-Lemma turn_by_is_about w : exists n angle, norm n = 1 /\ Rabs angle <= 2 * norm w /\
-  forall u, turn_by (Quaternion w 1) u = turn_about n angle u.
+Lemma norm_of_cross u v : norm (cross u v) <= norm u * norm v.
 Proof.
-  assert (p := norm_is_positive w). destruct (Req_dec (norm w) 0) as [z | n].
+  assert (p := norm_is_positive (cross u v)). rewrite <- (Rabs_pos_eq _ p).
+  apply abs_below; [apply Rmult_le_pos; apply norm_is_positive |].
+  assert (l := lagrange u v). rewrite !dot_is_square in l. rewrite <- (dot_is_square (cross u v)), dot_is_square.
+  assert (0 <= dot u v * dot u v) by apply Rle_0_sqr. nra.
+Qed.
+
+(** Between quaternions with the scalar part 1 and small vector parts, the turn is by no more than three times their
+    difference. *)
+Lemma small_turn_between v w : norm v <= 7 / 32 -> norm w <= 7 / 32 -> exists n angle,
+  norm n = 1 /\ Rabs angle <= 3 * norm (minus w v) /\
+  forall u, turn_by (Quaternion w 1) u = turn_about n angle (turn_by (Quaternion v 1) u).
+Proof.
+  intros hv hw. set (q := onward (Quaternion v 1) (Quaternion w 1)).
+  assert (pv := norm_is_positive v). assert (pw := norm_is_positive w). assert (pd := norm_is_positive (minus w v)).
+  assert (sq : forall y, square (Quaternion y 1) <> 0).
+  { intros y. assert (h := square_is_positive (Quaternion y 1)). cbn [scalar_part] in h. lra. }
+  assert (eq : forall u, turn_by (Quaternion w 1) u = turn_by q (turn_by (Quaternion v 1) u))
+    by (intros u; symmetry; now apply turn_by_onward).
+  assert (scalar : 1 - 49 / 1024 <= scalar_part q).
+  { unfold q, onward. cbn [vector_part scalar_part]. assert (h := dot_is_below w v).
+    assert (b : norm w * norm v <= 7 / 32 * (7 / 32)) by (apply Rmult_le_compat; lra).
+    unfold Rabs in h. destruct (Rcase_abs (dot w v)); lra. }
+  assert (vector : norm (vector_part q) <= norm (minus w v) * (1 + 7 / 32)).
+  { replace (vector_part q) with (plus (minus w v) (times (- 1) (cross (minus w v) v))).
+    - apply Rle_trans with (1 := norm_of_plus _ _). rewrite norm_of_times.
+      replace (Rabs (- 1)) with 1 by (unfold Rabs; destruct (Rcase_abs (- 1)); lra).
+      assert (c := norm_of_cross (minus w v) v).
+      assert (norm (minus w v) * norm v <= norm (minus w v) * (7 / 32)) by (apply Rmult_le_compat_l; lra). lra.
+    - unfold q, onward. destruct v as [a b c], w as [e f g]. unfold plus, minus, times, cross. cbn. f_equal; ring. }
+  assert (positive : scalar_part q <> 0) by lra.
+  destruct (Req_dec (norm (vector_part q)) 0) as [z | n].
   - exists (Vec 1 0 0), 0. split; [unfold norm, dot; cbn; replace (_ + _) with 1 by ring; apply sqrt_1 |].
-    split; [rewrite Rabs_R0; lra |]. intros u. rewrite turn_about_by_nothing, (norm_is_zero w) by lra.
-    rewrite <- (turn_by_nothing 0 u) at 2. unfold times. cbn [vx vy vz]. now rewrite Rmult_0_l.
-  - exists (unit_along w), (2 * atan (norm w / 1)). split; [| split].
+    split; [rewrite Rabs_R0; lra |]. intros u. rewrite eq, turn_about_by_nothing.
+    rewrite <- (turn_about_is_turn_by q _ positive), z. unfold Rdiv. rewrite Rmult_0_l, atan_0, Rmult_0_r.
+    apply turn_about_by_nothing.
+  - exists (unit_along (vector_part q)), (2 * atan (norm (vector_part q) / scalar_part q)). split; [| split].
     + apply unit_along_is_unit. intros e. apply n. rewrite e. apply norm_of_zero.
-    + replace (norm w / 1) with (norm w) by field. assert (h := atan_is_below (norm w) p). rewrite Rabs_pos_eq; lra.
-    + intros u. symmetry. apply (turn_about_is_turn_by (Quaternion w 1)). cbn [scalar_part]. lra.
+    + assert (p := norm_is_positive (vector_part q)).
+      assert (r : 0 <= norm (vector_part q) / scalar_part q <= 3 / 2 * norm (minus w v)).
+      { split; [apply Rmult_le_pos; [exact p | left; apply Rinv_0_lt_compat; lra] |].
+        apply Rmult_le_reg_r with (scalar_part q); [lra |]. unfold Rdiv at 1. rewrite Rmult_assoc, Rinv_l by lra. nra. }
+      assert (h := atan_is_below _ (proj1 r)). rewrite Rabs_pos_eq; lra.
+    + intros u. rewrite eq. symmetry. now apply turn_about_is_turn_by.
 Qed.
 
 Lemma six_choices {A : Type} (P : nat -> A -> Prop) : (forall i, (i < 6)%nat -> exists a, P i a) ->
@@ -300,12 +333,13 @@ Lemma one_of_Q : Q2R 1 = 1.
 Proof. unfold Q2R. cbn. lra. Qed.
 
 Theorem tube_is_sound b : check_tube prec m v w x S b = true ->
-  exists z, (forall i, (i < 6)%nat -> Rabs (z i) <= Q2R (share b)) /\ Q2R (share b) <= 1 /\
+  exists z, in_box z /\ in_box (fun i => Q2R (nth6 (guess b) i)) /\
+    (forall i, (i < 6)%nat -> Rabs (z i - Q2R (nth6 (guess b) i)) <= Q2R (within b)) /\
     has_lengths m (map6 (on_line v w s) (Six 7 8 9 10 11 12)%nat) (tube_pose v (chord s) z) /\
     forall z', in_box z' -> has_lengths m (map6 (on_line v w s) (Six 7 8 9 10 11 12)%nat) (tube_pose v (chord s) z') ->
       forall i, (i < 6)%nat -> z' i = z i.
 Proof.
-  unfold check_tube. cbv zeta. rewrite !andb_true_iff. intros [[[[[hL hg] hs] hleft] hrho] heta].
+  unfold check_tube. cbv zeta. rewrite !andb_true_iff. intros [[[[hL hg] hleft] hrho] heta].
   set (CI := map6 (map6 (number prec (tube_scale b))) (tube_inverse b)) in *.
   set (C := fun i k => Q2R (nth6 (nth6 (tube_inverse b) i) k # Pos.pow 2 (tube_scale b))).
   assert (hC : forall i k, is_in (C i k) (nth6 (nth6 CI i) k)).
@@ -365,19 +399,17 @@ Proof.
     assert (e := below_is_true _ _ _ _ _ heta in_eta (fraction_is_in prec _)).
     rewrite Q2R_mult, Q2R_minus, one_of_Q in e. intros i li. apply Rle_trans with (2 := Rlt_le _ _ e).
     exact (most_bounds (fun i => Rabs (total (fun k => C i k * g z0 k))) i li). }
-  assert (few : Q2R (share b) <= 1).
-  { apply Qle_bool_iff, Qle_Rle in hs. unfold Q2R at 2 in hs. cbn in hs. lra. }
   assert (small : Q2R (left b) < 1) by (apply above_zero_of in hleft; rewrite Q2R_minus, one_of_Q in hleft; lra).
-  assert (near : forall i, (i < 6)%nat -> Rabs (z0 i) + Q2R (within b) <= Q2R (share b)).
+  assert (near : forall i, (i < 6)%nat -> Rabs (z0 i) + Q2R (within b) <= 1).
   { intros i li. assert (h := every_is_true _ hg i li). rewrite nth6_map, andb_true_iff in h. destruct h as [a e].
-    apply Qle_bool_iff, Qle_Rle in a. apply Qle_bool_iff, Qle_Rle in e. rewrite Q2R_plus in a. rewrite Q2R_minus in e.
-    unfold z0, Rabs. destruct (Rcase_abs _); lra. }
-  destruct (one_solution g C z0 (Q2R (left b)) (Q2R (within b)) small
-    (fun i li => Rle_trans _ _ _ (near i li) few) starts linear) as [z [close [solved only]]].
-  assert (inside : forall i, (i < 6)%nat -> Rabs (z i) <= Q2R (share b)).
-  { intros i li. assert (a := close i li). assert (e := near i li). assert (t := Rabs_triang (z i - z0 i) (z0 i)).
-    replace (z i - z0 i + z0 i) with (z i) in t by ring. lra. }
-  exists z. split; [exact inside | split; [exact few | split]].
+    apply Qle_bool_iff, Qle_Rle in a. apply Qle_bool_iff, Qle_Rle in e. rewrite Q2R_plus, one_of_Q in a.
+    rewrite Q2R_minus, one_of_Q in e. unfold z0, Rabs. destruct (Rcase_abs _); lra. }
+  destruct (one_solution g C z0 (Q2R (left b)) (Q2R (within b)) small near starts linear) as [z [close [solved only]]].
+  assert (some : 0 <= Q2R (within b)) by (apply Rle_trans with (2 := close 0%nat ltac:(lia)); apply Rabs_pos).
+  exists z. split; [| split; [| split; [exact close | split]]].
+  - intros i li. assert (a := close i li). assert (e := near i li). assert (t := Rabs_triang (z i - z0 i) (z0 i)).
+    replace (z i - z0 i + z0 i) with (z i) in t by ring. lra.
+  - intros i li. assert (e := near i li). change (Rabs (z0 i) <= 1). lra.
   - apply lengths_of. intros i li. exact (solved i li).
   - intros z' hz' h. apply only; [exact hz' |]. intros i li. exact (proj1 (lengths_of _) h i li).
 Qed.
@@ -401,28 +433,59 @@ Qed.
 Lemma above_0 q : Z.ltb 0 (Qnum q) = true -> 0 < Q2R q.
 Proof. apply above_zero_of. Qed.
 
-(** A platform in a share of the tube is one of a machine that may be off by so much. *)
-Lemma share_is_tracked m v q P z : has_tube v = true -> (forall i, (i < 6)%nat -> Rabs (z i) <= Q2R q) ->
-  is_tracked (in_share m v q) P (tube_pose v P z).
+(** A platform in the tube is one of a machine that may be off by how far its coordinates are from others. *)
+Lemma guess_is_near m v q P z y : has_tube v = true -> in_box z -> in_box y ->
+  (forall i, (i < 6)%nat -> Rabs (z i - y i) <= Q2R q) ->
+  is_tracked (near_guess m v q) (tube_pose v P y) (tube_pose v P z).
 Proof.
-  unfold has_tube. rewrite !andb_true_iff. intros [[rational p] r] h. apply above_0 in p. apply above_0 in r.
+  unfold has_tube. rewrite !andb_true_iff. intros [[[rational p] r] little] hz hy h.
+  apply above_zero_of in p. apply above_zero_of in r.
+  apply Qle_bool_iff, Qle_Rle in little. replace (Q2R (1 # 8)) with (1 / 8) in little by (unfold Q2R; cbn; lra).
   assert (e13 := without_half_turns v 13 rational). assert (e14 := without_half_turns v 14 rational).
-  destruct (turn_by_is_about (times (coordinate v 14) (last3 z))) as [n [angle [hn [ha eq]]]].
-  assert (s1 : norm (first3 z) <= 7 / 4 * Q2R q) by (apply norm_is_small; cbn; apply h; lia).
-  assert (s2 : norm (last3 z) <= 7 / 4 * Q2R q) by (apply norm_is_small; cbn; apply h; lia).
-  exists (times (coordinate v 13) (first3 z)), n, angle. split; [| split; [exact hn | split]].
-  - cbn [tolerance in_share of_position]. rewrite norm_of_times, e13, Rabs_pos_eq by lra. rewrite !Q2R_mult.
+  assert (small : forall x, in_box x -> norm (times (coordinate v 14) (last3 x)) <= 7 / 32).
+  { intros x hx. assert (n : norm (last3 x) <= 7 / 4 * 1) by (apply norm_is_small; cbn; apply hx; lia).
+    rewrite norm_of_times, e14, Rabs_pos_eq by lra. assert (k := norm_is_positive (last3 x)).
+    assert (Q2R (coordinate_q v 14) * norm (last3 x) <= 1 / 8 * (7 / 4 * 1)) by (apply Rmult_le_compat; lra). lra. }
+  destruct (small_turn_between _ _ (small y hy) (small z hz)) as [n [angle [hn [ha eq]]]].
+  assert (s1 : norm (minus (first3 z) (first3 y)) <= 7 / 4 * Q2R q) by (apply norm_is_small; cbn; apply h; lia).
+  assert (s2 : norm (minus (last3 z) (last3 y)) <= 7 / 4 * Q2R q) by (apply norm_is_small; cbn; apply h; lia).
+  exists (times (coordinate v 13) (minus (first3 z) (first3 y))), n, angle. split; [| split; [exact hn | split]].
+  - cbn [tolerance near_guess of_position]. rewrite norm_of_times, e13, Rabs_pos_eq by lra. rewrite !Q2R_mult.
     replace (Q2R (7 # 4)) with (7 / 4) by (unfold Q2R; cbn; lra).
     replace (Q2R q * Q2R (coordinate_q v 13) * (7 / 4)) with (Q2R (coordinate_q v 13) * (7 / 4 * Q2R q)) by ring.
     apply Rmult_le_compat_l; lra.
-  - cbn [tolerance in_share of_orientation value]. apply Rle_trans with (1 := ha).
+  - cbn [tolerance near_guess of_orientation value]. apply Rle_trans with (1 := ha).
     apply Rle_trans with (2 := Rle_abs _).
+    replace (minus (times (coordinate v 14) (last3 z)) (times (coordinate v 14) (last3 y))) with
+      (times (coordinate v 14) (minus (last3 z) (last3 y))) by (unfold times, minus; cbn; f_equal; ring).
     rewrite norm_of_times, e14, Rabs_pos_eq by lra. rewrite !Q2R_mult.
-    replace (Q2R (7 # 2)) with (2 * (7 / 4)) by (unfold Q2R; cbn; lra).
-    replace (Q2R q * Q2R (coordinate_q v 14) * (2 * (7 / 4))) with (2 * (Q2R (coordinate_q v 14) * (7 / 4 * Q2R q)))
-      by ring.
+    replace (Q2R (21 # 4)) with (3 * (7 / 4)) by (unfold Q2R; cbn; lra).
+    replace (Q2R q * Q2R (coordinate_q v 14) * (3 * (7 / 4))) with
+      (3 * (Q2R (coordinate_q v 14) * (7 / 4 * Q2R q))) by ring.
     apply Rmult_le_compat_l; [lra |]. apply Rmult_le_compat_l; lra.
-  - unfold tube_pose. f_equal. apply functional_extensionality. intros u. apply eq.
+  - unfold tube_pose. cbn [position turn]. f_equal; [| apply functional_extensionality; intros u; apply eq].
+    destruct (position P) as [x1 x2 x3]. unfold plus, times, minus. cbn. f_equal; ring.
+Qed.
+
+Lemma guess_follows v w y : no_half_turns v = true ->
+  follows (guess_form prec v w y) (fun s => tube_pose v (on_chord v w s) (fun i => Q2R (nth6 y i))).
+Proof.
+  intros rational middle s x S t hm hm' hs ht turns.
+  destruct (chord_follows prec v w middle s x S t hm hm' hs ht turns) as [rm [rs [hp [hx [hy hz]]]]].
+  assert (sq : forall a, square (Quaternion a 1) <> 0).
+  { intros a. assert (h := square_is_positive (Quaternion a 1)). cbn [scalar_part] in h. lra. }
+  assert (rigid : forall P, is_rigid P -> is_rigid (tube_pose v P (fun i => Q2R (nth6 y i)))).
+  { intros P [l d]. split; unfold tube_pose; cbn [turn].
+    - intros u. rewrite (l u) at 1. apply turn_by_is_linear.
+    - intros a b. rewrite turn_by_keeps_dot by apply sq. apply d. }
+  split; [now apply rigid | split; [now apply rigid |]].
+  assert (scale : forall q u, v_encloses t (scaled prec q (v_rational prec u)) (times (Q2R q) (real_vec u))
+    (times (Q2R q) (real_vec u)))
+    by (intros q u; apply v_scale_encloses; [apply constant_encloses, fraction_is_in | apply v_rational_encloses]).
+  unfold tube_pose. rewrite !(without_half_turns v) by exact rational. split; cbn [position turn place images].
+  - apply v_add_encloses; [exact hp | exact (scale _ (Vec (at1 y) (at2 y) (at3 y)))].
+  - split; [| split]; cbn [vx vy vz]; (apply turn_by_encloses;
+      [exact (scale _ (Vec (at4 y) (at5 y) (at6 y))) | apply one_encloses | assumption]).
 Qed.
 
 Theorem held_box_is_sound c v w start b : check_box prec c (Held v w) start b = true ->
@@ -437,19 +500,18 @@ Proof.
   assert (turns : is_turn (chord_form prec v w (middle_of prec start b) (range_of prec start b)) = true)
     by exact (check_pose_turns _ _ _ _ _ _ _ poses).
   destruct (places_are_in prec start b s hs) as [middle [hm [hm' hS]]].
-  destruct (tube_is_sound (subject c) v w _ _ middle s hm hm' hS rational turns k tube) as [z [inside [few [lengths
-    only]]]].
-  assert (boxed : in_box z) by (intros i l; apply Rle_trans with (2 := few); now apply inside).
+  destruct (tube_is_sound (subject c) v w _ _ middle s hm hm' hS rational turns k tube)
+    as [z [boxed [guessed [close [lengths only]]]]].
   exists (tube_pose v (on_chord v w s) z). split; [| split].
   - split; [| exact lengths]. destruct (parts_in_box z boxed) as [a a']. exists (first3 z), (last3 z).
     split; [exact a | split; [exact a' | reflexivity]].
   - intros P' [[y [y' [hy [hy' e]]]] l]. rewrite <- tube_pose_of_vecs in e. subst P'.
     apply same_coordinates. apply only; [now apply in_box_of_vecs | exact l].
   - intros B P' hB tracked. rewrite (exact_is_tracked _ _ _ exact_m tracked).
-    change (feasible_at (in_share (subject c) v (share k)) B (tension_margin c) (length_margin c)
+    change (feasible_at (near_guess (subject c) v (within k)) B (tension_margin c) (length_margin c)
       (tube_pose v (on_chord v w s) z)).
-    apply (poses_are_sound prec c _ _ _ little (chord_follows prec v w) start b poses s hs); [exact hB |].
-    now apply share_is_tracked.
+    apply (poses_are_sound prec c _ _ _ little (guess_follows v w (guess k) rational) start b poses s hs); [exact hB |].
+    now apply guess_is_near.
 Qed.
 
 End Precision.

@@ -196,6 +196,33 @@ Proof.
   unfold times. cbn [vx vy vz]. f_equal; field; split; assumption.
 Qed.
 
+(** From the turn by the one to that by the other, in the world's axes: q times the conjugate of p. *)
+Definition onward (p q : quaternion) : quaternion :=
+  Quaternion (minus (minus (times (scalar_part p) (vector_part q)) (times (scalar_part q) (vector_part p)))
+                    (cross (vector_part q) (vector_part p)))
+             (scalar_part p * scalar_part q + dot (vector_part q) (vector_part p)).
+
+Lemma square_of_onward p q : square (onward p q) = square p * square q.
+Proof.
+  destruct p as [[a b c] d], q as [[e f g] h].
+  unfold square, onward, dot, minus, times, cross. cbn [vector_part scalar_part vx vy vz]. ring.
+Qed.
+
+Lemma turn_by_onward p q u : square p <> 0 -> square q <> 0 -> turn_by (onward p q) (turn_by p u) = turn_by q u.
+Proof.
+  intros hp hq. assert (is : forall r w, turn_by r w = times (/ square r) (quadratic r w)) by reflexivity.
+  assert (e : quadratic (onward p q) (quadratic p u) = times (square p * square p) (quadratic q u)).
+  { rewrite quadratic_of_after. clear is hp hq. destruct p as [[a b c] d], q as [[e f g] h].
+    set (k := square (Quaternion (Vec a b c) d)).
+    replace (after _ _) with (Quaternion (Vec (k * e) (k * f) (k * g)) (k * h)).
+    - destruct u as [x y z]. clearbody k. cbv [quadratic dot plus times cross vector_part scalar_part vx vy vz].
+      f_equal; ring.
+    - unfold k. cbv [square after onward dot minus plus times cross vector_part scalar_part vx vy vz].
+      f_equal; [f_equal |]; ring. }
+  rewrite !is, square_of_onward, quadratic_of_times, e. destruct (quadratic q u) as [x y z].
+  unfold times. cbn [vx vy vz]. f_equal; field; split; assumption.
+Qed.
+
 (** A quaternion turns by twice the angle whose tangent is its vector part by its scalar part. *)
 Lemma turn_about_is_turn_by q u : scalar_part q <> 0 ->
   turn_about (unit_along (vector_part q)) (2 * atan (norm (vector_part q) / scalar_part q)) u = turn_by q u.

@@ -285,7 +285,7 @@ std::string tube_text(const std::optional<TubeBox>& tube) {
   const auto share = [](long n) { return fmt::format("({} # {})", n, 1L << kTubeBits); };
   text += fmt::format(")%Z {} (Six", share(tube->left));
   for (const long n : tube->guess) text += " " + share(n);
-  return text + fmt::format(") {} {}))", share(tube->within), share(tube->share));
+  return text + fmt::format(") {}))", share(tube->within));
 }
 
 std::string box_text(const Box& box) {
@@ -363,9 +363,11 @@ std::string boxes_file(const Certificate& certificate, const std::vector<std::ve
         const auto share = [](long n) { return fmt::format("{}/{}", n, 1L << kTubeBits); };
         std::vector<std::string> guess;
         for (const long n : box.tube->guess) guess.push_back(share(n));
-        list.back()["tube"] = {{"scale", box.tube->scale},          {"inverse", box.tube->inverse},
-                               {"left", share(box.tube->left)},     {"guess", guess},
-                               {"within", share(box.tube->within)}, {"share", share(box.tube->share)}};
+        list.back()["tube"] = {{"scale", box.tube->scale},
+                               {"inverse", box.tube->inverse},
+                               {"left", share(box.tube->left)},
+                               {"guess", guess},
+                               {"within", share(box.tube->within)}};
       }
     }
     all.push_back(std::move(list));

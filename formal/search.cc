@@ -372,12 +372,12 @@ class Judge {
       norm = std::max(norm, sum);
     }
     // C times half of |d|^2 - L^2 at a guess.
+    const auto scaled = [&](std::size_t first, double size) {
+      Vector u;
+      for (std::size_t i = 0; i < 3; ++i) u[i] = Slope(Interval(size) * share(tube.guess[first + i]));
+      return u;
+    };
     const auto steps = [&] {
-      const auto scaled = [&](std::size_t first, double size) {
-        Vector u;
-        for (std::size_t i = 0; i < 3; ++i) u[i] = Slope(Interval(size) * share(tube.guess[first + i]));
-        return u;
-      };
       const QuaternionTurn turn(scaled(3, stated.tube.turn), Slope(Interval(1.0)));
       const Vector at_guess = position + scaled(0, stated.tube.position);
       std::array<Slope, 6> moved;
@@ -404,17 +404,19 @@ class Judge {
       largest = std::max(largest, std::abs(tube.guess[k]));
     }
     // Coq may compute with few bits: a little more costs little.
-    constexpr double kLittle = 2e-3, kAmple = 1.25;
+    constexpr double kLittle = 1e-3, kAmple = 1.25;
     const double left = norm + kLittle;
     if (!(left < 1)) return false;
     const double within = farthest / (1 - left) * kAmple + kLittle;
     if (!(within < 1)) return false;
     tube.left = std::lrint(std::ceil(std::ldexp(left, kTubeBits)));
     tube.within = std::lrint(std::ceil(std::ldexp(within, kTubeBits)));
-    tube.share = largest + tube.within;
-    if (tube.left >= kOne || tube.share > kOne) return false;
-    reach_.radii[kPosition] = share(tube.share) * Interval(stated.tube.position) * Interval(1.75);
-    reach_.radii[kTurn] = share(tube.share) * Interval(stated.tube.turn) * Interval(3.5);
+    if (tube.left >= kOne || largest + tube.within > kOne || stated.tube.turn > 0.125) return false;
+    reach_.radii[kPosition] = share(tube.within) * Interval(stated.tube.position) * Interval(1.75);
+    reach_.radii[kTurn] = share(tube.within) * Interval(stated.tube.turn) * Interval(5.25);
+    // Poses are enclosed around the guess.
+    turn_.emplace(scaled(3, stated.tube.turn), Slope(Interval(1.0)));
+    shift_ = scaled(0, stated.tube.position);
     return reach_.radii[kTurn].upper() < 1;
   }
   static constexpr long kOne = 1L << kTubeBits;
@@ -423,8 +425,9 @@ class Judge {
   void place(const Slope& at) {
     Vector position;
     if (chord_) {
-      position = chord_->position(at);
+      position = chord_->position(at) + shift_;
       columns_ = chord_->columns(at);
+      for (Vector& column : columns_) column = (*turn_)(column);
     } else if (geodesic_) {
       position = geodesic_->position(at);
       columns_ = geodesic_->columns(at);
@@ -547,6 +550,8 @@ class Judge {
   const Machine& machine_;
   std::optional<Geodesic> geodesic_;
   std::optional<Chord> chord_;
+  Vector shift_;                        ///< of the guess from the chord
+  std::optional<QuaternionTurn> turn_;  ///< likewise
   Reach reach_;
   Columns columns_;            ///< of the rotation
   std::array<Part, 6> parts_;  ///< what the load makes of each row of C

@@ -16,16 +16,16 @@
 namespace taut::formal {
 
 /// Where lengths are held: nearly the inverse of the derivative of half the lengths' squares by the tube's coordinates;
-/// how much is left of an error after a step of Newton's method with it; coordinates near which the platform is, and
-/// within what; and the share of the tube in which that is. All but the inverse times 2^-10.
+/// how much is left of an error after a step of Newton's method with it; and coordinates near which the platform is,
+/// and within what. All but the inverse times 2^-kTubeBits.
 struct TubeBox {
   int scale = 0;
   std::array<std::array<long, 6>, 6> inverse{};
   long left = 0;
   std::array<long, 6> guess{};
-  long within = 0, share = 0;
+  long within = 0;
 };
-inline constexpr int kTubeBits = 10;
+inline constexpr int kTubeBits = 20;
 
 /// [k, k + 1] / 2^depth of a segment, with integers times 2^-scale.
 struct Box {

@@ -439,10 +439,9 @@ let inverse_of place f = six place (six place (whole place)) (get "inverse" f)
 
 let tube_box json =
   let place = "boxes" in
-  let f = fields place [ "scale"; "inverse"; "left"; "guess"; "within"; "share" ] json in
+  let f = fields place [ "scale"; "inverse"; "left"; "guess"; "within" ] json in
   { tube_scale = scale_of place f; tube_inverse = inverse_of place f; left = number place (get "left" f);
-    guess = six place (number place) (get "guess" f); within = number place (get "within" f);
-      share = number place (get "share" f) }
+    guess = six place (number place) (get "guess" f); within = number place (get "within" f) }
 
 let box json =
   let place = "boxes" in

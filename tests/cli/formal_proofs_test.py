@@ -407,7 +407,7 @@ class AlongMotions(Proofs):
         self.assertTrue(1e-5 < farthest < 1e-2, farthest)
         middle = inverse(derivative([(a + b) / 2 for a, b in zip(first, last)]))
         tube = (f"(Some (TubeBox {SCALE} (Six {' '.join(map(six, middle))})%Z (1 # 32) (Six 0 0 0 0 0 0) "
-                "(1 # 256) (1 # 256)))")
+                "(1 # 256)))")
         path = [(*x, *length, *size) for x, length in zip((first, last), ends)]
         yield from self.goals(machine, problem, "Lengths", path, poses, tube, self.ROOM_OF_LENGTHS)
 
