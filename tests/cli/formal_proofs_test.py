@@ -320,7 +320,7 @@ class AlongMotions(Proofs):
     reached at any of many places, and refuses each that is reached.
     """
     PLACES = 201
-    ROOM, ROOM_OF_LENGTHS = 1.05, 1.2  # times as far from the middle of what is reached
+    ROOM, ROOM_OF_LENGTHS = 1.05, 1.3  # times as far from the middle of what is reached
     MATRIX = ((1e4, 3e3, 1e3, 0, 0, 2e4), (3e3, 2e4, 0, 0, 0, -3e4), (1e3, 0, 1e4, 0, 4e4, 0),
               (0, 0, 0, 1e6, -3e5, 0), (0, 0, 4e4, -3e5, 1e6, 0), (2e4, -3e4, 0, 0, 0, 2e6))
 
