@@ -35,7 +35,7 @@ HEAD = """# Paths checked in Coq
 
 From `bench/formal.py`: processor times. `check` is what Coq's virtual machine takes to compute it, without loading
 libraries and reading the file, some four seconds. `fast` is in the processor's floating point, `exact` and taut-verify
-are over whole numbers of 30 bits.
+are over whole numbers of 30 bits, or more where tubes are thin. Others used the machine; what counts are ratios.
 
 | path | boxes | taut-check, ms | **taut-verify, s** | check, fast, s | check, exact, s | verify / taut-check |
 |---|---|---|---|---|---|---|
