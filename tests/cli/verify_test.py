@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """taut-verify, the checker extracted from Coq, which formal/build has made: what it accepts is true.
 
-.ci/run runs it; it takes half a minute.
+.ci/run runs it; it takes some minute.
 
 Usage: verify_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
@@ -185,7 +185,7 @@ class Planned(Verify):
             return (factor * float.fromhex(x)).hex()
         tube = path["pose_tubes"][k]
         edits = [(put(lambda p: p["waypoints"][0]["lengths"], i, other(path["waypoints"][0]["lengths"][i], 1.01)), 1)
-                 for i in range(6)]
+                 for i in (0, 5)]
         edits += [(put(lambda p: inner(p)["position"], 0, "0x1p-1"), 1),
                   (put(lambda p: inner(p)["quaternion"], 1, "0x1p-1"), 1),
                   (put(inner, "quaternion", ["0x0p+0"] * 4), 1),
