@@ -334,90 +334,124 @@ class Judge {
   }
 
  private:
-  /// Sets the numbers by which there is one pose with these lengths in the tube, and how far it may be from the chord.
-  bool holds_lengths(const Slope& at, TubeBox& tube) {
-    const HeldPose& stated = chord_->begin;
-    const Columns columns = chord_->columns(at);
-    const Vector position = chord_->position(at);
+  /// The machine along the chord, and the lengths that it holds.
+  struct Held {
+    Vector position;
     std::array<Vector, 6> arms;
     std::array<Slope, 6> lengths;
-    std::array<std::array<Interval, 6>, 6> derivative;
-    Matrix middle{};
-    const QuaternionTurn anyhow(any_vector(kTurn, stated.tube.turn), Slope(Interval(1.0)));
-    const Vector anywhere = whole(position) + any_vector(kPosition, stated.tube.position);
+  };
+  using Intervals = std::array<std::array<Interval, 6>, 6>;
+
+  [[nodiscard]] Held along_chord(const Slope& at) const {
+    Held held{chord_->position(at), {}, {}};
+    const Columns columns = chord_->columns(at);
     for (std::size_t i = 0; i < 6; ++i) {
-      arms[i] = tight(image(columns, machine_.platform[i]), reach_);
-      lengths[i] = chord_->length(i, at);
-      const Slope changed = excess(anywhere + anyhow(whole(arms[i])) - machine_.base[i], whole(lengths[i]));
+      held.arms[i] = tight(image(columns, machine_.platform[i]), reach_);
+      held.lengths[i] = chord_->length(i, at);
+    }
+    return held;
+  }
+
+  /// Of half of |d|^2 - L^2 by the tube's coordinates, anywhere in it.
+  [[nodiscard]] Intervals derivative(const Held& held) const {
+    const PoseTube& tube = chord_->begin.tube;
+    const QuaternionTurn turn(any_vector(kTurn, tube.turn), Slope(Interval(1.0)));
+    const Vector position = whole(held.position) + any_vector(kPosition, tube.position);
+    Intervals result;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Slope changed = excess(position + turn(whole(held.arms[i])) - machine_.base[i], whole(held.lengths[i]));
       for (std::size_t j = 0; j < 6; ++j) {
         const auto& block = changed.slopes[j < 3 ? kPosition : kTurn];
-        derivative[i][j] = block ? (*block)[j % 3] : Interval(0.0);
-        middle[i][j] = midpoint_approx(derivative[i][j]);
+        result[i][j] = block ? (*block)[j % 3] : Interval(0.0);
       }
     }
-    const std::optional<int> scale = whole_inverse(middle, tube.inverse);
-    if (!scale) return false;
-    tube.scale = *scale;
-    const auto inverse = [&](std::size_t k, std::size_t i) {
-      return Interval(std::ldexp(static_cast<double>(tube.inverse[k][i]), -tube.scale));
-    };
+    return result;
+  }
+
+  static Interval entry(const TubeBox& tube, std::size_t k, std::size_t i) {
+    return Interval(std::ldexp(static_cast<double>(tube.inverse[k][i]), -tube.scale));
+  }
+
+  /// Of I - C A.
+  static double norm_left(const TubeBox& tube, const Intervals& derivative) {
     double norm = 0;
     for (std::size_t k = 0; k < 6; ++k) {
       double sum = 0;
       for (std::size_t j = 0; j < 6; ++j) {
-        Interval entry(k == j ? 1.0 : 0.0);
-        for (std::size_t i = 0; i < 6; ++i) entry -= inverse(k, i) * derivative[i][j];
-        sum += magnitude(entry);
+        Interval left(k == j ? 1.0 : 0.0);
+        for (std::size_t i = 0; i < 6; ++i) left -= entry(tube, k, i) * derivative[i][j];
+        sum += magnitude(left);
       }
       norm = std::max(norm, sum);
     }
-    // C times half of |d|^2 - L^2 at a guess.
-    const auto scaled = [&](std::size_t first, double size) {
-      Vector u;
-      for (std::size_t i = 0; i < 3; ++i) u[i] = Slope(Interval(size) * share(tube.guess[first + i]));
-      return u;
-    };
-    const auto steps = [&] {
-      const QuaternionTurn turn(scaled(3, stated.tube.turn), Slope(Interval(1.0)));
-      const Vector at_guess = position + scaled(0, stated.tube.position);
-      std::array<Slope, 6> moved;
-      for (std::size_t i = 0; i < 6; ++i) {
-        const Slope left = excess(tight(at_guess + turn(arms[i]) - machine_.base[i], reach_), lengths[i]);
-        for (std::size_t k = 0; k < 6; ++k) moved[k] = moved[k] + Slope(inverse(k, i)) * left;
-      }
-      return moved;
-    };
-    std::array<Slope, 6> moved = steps();
-    constexpr int kNewtonSteps = 3;
-    for (int round = 0; round < kNewtonSteps; ++round) {
+    return norm;
+  }
+
+  /// Three coordinates of the guess from this one on, times a size.
+  static Vector guessed(const TubeBox& tube, std::size_t first, double size) {
+    Vector u;
+    for (std::size_t i = 0; i < 3; ++i) u[i] = Slope(Interval(size) * share(tube.guess[first + i]));
+    return u;
+  }
+
+  /// C times half of |d|^2 - L^2 at the guess: a step of Newton's method.
+  [[nodiscard]] std::array<Slope, 6> step(const Held& held, const TubeBox& tube) const {
+    const PoseTube& size = chord_->begin.tube;
+    const QuaternionTurn turn(guessed(tube, 3, size.turn), Slope(Interval(1.0)));
+    const Vector position = held.position + guessed(tube, 0, size.position);
+    std::array<Slope, 6> result;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Slope off = excess(tight(position + turn(held.arms[i]) - machine_.base[i], reach_), held.lengths[i]);
+      for (std::size_t k = 0; k < 6; ++k) result[k] = result[k] + Slope(entry(tube, k, i)) * off;
+    }
+    return result;
+  }
+
+  /// Sets the guess. @return whether it is in the tube
+  bool guess(const Held& held, TubeBox& tube) const {
+    constexpr int kSteps = 3;
+    for (int round = 0; round < kSteps; ++round) {
+      const std::array<Slope, 6> moved = step(held, tube);
       for (std::size_t k = 0; k < 6; ++k) {
-        const double step = std::ldexp(midpoint_approx(moved[k].mid), kTubeBits);
-        if (!(std::abs(step) < kOne)) return false;
-        tube.guess[k] = std::clamp(tube.guess[k] - std::lrint(step), -kOne, kOne);
+        const double by = std::ldexp(midpoint_approx(moved[k].mid), kTubeBits);
+        if (!(std::abs(by) < kOne)) return false;
+        tube.guess[k] = std::clamp(tube.guess[k] - std::lrint(by), -kOne, kOne);
       }
-      moved = steps();
     }
+    return true;
+  }
+
+  /// Sets the numbers by which there is one pose with these lengths in the tube, and how far it may be from the guess.
+  bool holds_lengths(const Slope& at, TubeBox& tube) {
+    const PoseTube& size = chord_->begin.tube;
+    const Held held = along_chord(at);
+    const Intervals slopes = derivative(held);
+    Matrix middle{};
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < 6; ++j) middle[i][j] = midpoint_approx(slopes[i][j]);
+    }
+    const std::optional<int> scale = whole_inverse(middle, tube.inverse);
+    if (!scale) return false;
+    tube.scale = *scale;
+    if (!guess(held, tube)) return false;
     double farthest = 0;
-    long largest = 0;
-    for (std::size_t k = 0; k < 6; ++k) {
-      farthest = std::max(farthest, magnitude(tight(moved[k], reach_).over));
-      largest = std::max(largest, std::abs(tube.guess[k]));
-    }
+    for (const Slope& moved : step(held, tube)) farthest = std::max(farthest, magnitude(tight(moved, reach_).over));
     // Coq may compute with few bits: a little more costs little.
     constexpr double kLittle = 1e-3, kAmple = 1.25;
-    const double left = norm + kLittle;
-    if (!(left < 1)) return false;
+    const double left = norm_left(tube, slopes) + kLittle;
     const double within = farthest / (1 - left) * kAmple + kLittle;
-    if (!(within < 1)) return false;
+    if (!(left < 1 && within < 1)) return false;
     tube.left = std::lrint(std::ceil(std::ldexp(left, kTubeBits)));
     tube.within = std::lrint(std::ceil(std::ldexp(within, kTubeBits)));
-    if (tube.left >= kOne || largest + tube.within > kOne || stated.tube.turn > 0.125) return false;
-    reach_.radii[kPosition] = share(tube.within) * Interval(stated.tube.position) * Interval(1.75);
-    reach_.radii[kTurn] = share(tube.within) * Interval(stated.tube.turn) * Interval(5.25);
+    const auto is_inside = [&](long n) { return std::abs(n) + tube.within <= kOne; };
+    constexpr double kMostTurn = 0.125;
+    if (tube.left >= kOne || !std::ranges::all_of(tube.guess, is_inside) || size.turn > kMostTurn) return false;
+    reach_.radii[kPosition] = share(tube.within) * Interval(size.position) * Interval(1.75);
+    reach_.radii[kTurn] = share(tube.within) * Interval(size.turn) * Interval(5.25);
     // Poses are enclosed around the guess.
-    turn_.emplace(scaled(3, stated.tube.turn), Slope(Interval(1.0)));
-    shift_ = scaled(0, stated.tube.position);
-    return reach_.radii[kTurn].upper() < 1;
+    turn_.emplace(guessed(tube, 3, size.turn), Slope(Interval(1.0)));
+    shift_ = guessed(tube, 0, size.position);
+    return true;
   }
   static constexpr long kOne = 1L << kTubeBits;
   static Interval share(long n) { return Interval(std::ldexp(static_cast<double>(n), -kTubeBits)); }
