@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-foreach(name end_to_end init signature regress report sensitivity map no_path show loads moves timed_audit
-    wrap messages angles terminal levels monitor)
+foreach(name end_to_end init signature regress report moves timed_audit wrap messages angles terminal levels monitor)
   taut_add_script_test(cli ${name} LABELS unit TIMEOUT 1800
     ARGUMENTS $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 endforeach()
 # parts has several processes under mpirun, and some that are killed.
-foreach(name parts robustness logs long_logs bodies compare audit json formal legs)
+foreach(name parts robustness logs long_logs bodies compare audit json formal legs sensitivity map no_path show loads)
   taut_add_script_test(cli ${name} LABELS slow TIMEOUT 1800 COST 200
     ARGUMENTS $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 endforeach()
