@@ -120,8 +120,8 @@ Fixpoint eval (p : nat -> form) (e : expr) : form :=
   end.
 
 (** By how much a platform may be turned. *)
-Definition angle_of (m : machine) : interval := I.abs (mid (eval (fun _ =>
-  constant zero) (of_orientation (tolerance m)))).
+Definition angle_of (m : machine) : interval :=
+  I.abs (mid (eval (fun _ => constant zero) (of_orientation (tolerance m)))).
 
 Definition f_rot_x c s v :=
   Vec (vx v) (f_sub (f_mul c (vy v)) (f_mul s (vz v))) (f_add (f_mul s (vy v)) (f_mul c (vz v))).
@@ -220,10 +220,9 @@ Definition units : six (six Z) :=
 
 (** ** Ellipsoids
 
-    The form of a matrix, given by rows, as a sum of positive squares (Lemmas.v), if it is one and the matrix symmetric.
-    *)
+    The form of a matrix, given by rows, as a sum of positive squares (Lemmas.v): if it is one, and the matrix is
+    symmetric. *)
 
-Definition vanishes (q : Q) : bool := Qeq_bool q 0.
 Fixpoint agree (k l : list Q) : bool :=
   match k, l with [], [] => true | x :: k, y :: l => Qeq_bool x y && agree k l | _, _ => false end.
 Fixpoint less_times (k : Q) (s r : list Q) : list Q :=
@@ -234,7 +233,7 @@ Fixpoint less_times (k : Q) (s r : list Q) : list Q :=
   end.
 Fixpoint reduced (r : list Q) (k : list Q) (rows : list (list Q)) : list (list Q) :=
   match k, rows with
-  | x :: k, s :: rows => (if vanishes x then s else less_times x s r) :: reduced r k rows
+  | x :: k, s :: rows => (if Qeq_bool x 0 then s else less_times x s r) :: reduced r k rows
   | _, _ => []
   end.
 Fixpoint squares (n : nat) (rows : list (list Q)) : option (list (Q * list Q)) :=
@@ -252,7 +251,7 @@ Fixpoint less_range (c : interval) (y : list interval) (k : list Q) : list inter
   match y, k with
   | y, [] => y
   | [], x :: k => I.neg (mul c (fraction x)) :: less_range c [] k
-  | y1 :: y, x :: k => (if vanishes x then y1 else sub y1 (mul c (fraction x))) :: less_range c y k
+  | y1 :: y, x :: k => (if Qeq_bool x 0 then y1 else sub y1 (mul c (fraction x))) :: less_range c y k
   end.
 Fixpoint spread_range (l : list (Q * list Q)) (y : list interval) : interval :=
   match l, y with
@@ -397,8 +396,8 @@ Definition posed (m : machine) (p : nat -> form) : pose_form :=
 (** Where it may be. *)
 Definition orientation_form (m : machine) (R : vec (vec form)) : vec (vec form) :=
   let by_angle := v_turned (angle_of m) in
-  if is_zero_number (of_orientation (tolerance m)) then R else Vec (by_angle (vx R)) (by_angle (vy R)) (by_angle (vz
-    R)).
+  if is_zero_number (of_orientation (tolerance m)) then R
+  else Vec (by_angle (vx R)) (by_angle (vy R)) (by_angle (vz R)).
 Definition position_form (m : machine) (P : vec form) : vec form := v_within 0 (of_position (tolerance m)) P.
 
 Definition check_pose (m : machine) (tension_margin length_margin : Q) (b : box) (p : pose_form) : bool :=
@@ -482,32 +481,38 @@ Definition geodesic_form (prec : F.precision) (v w : waypoint) : poses_form := f
 Definition chord_form (prec : F.precision) (v w : waypoint) : poses_form := fun m S =>
   let x := line_form prec v w m S in
   let u := Vec (x 3%nat) (x 4%nat) (x 5%nat) in
-  PoseForm (apart0 (over (f_add prec (v_dot prec u u) (f_mul prec (x 6%nat) (x 6%nat))))) (Vec (x 0%nat) (x 1%nat) (x
-    2%nat))
-    (columns_of prec (f_turn_by prec u (x 6%nat))).
+  let w := x 6%nat in
+  PoseForm (apart0 (over (f_add prec (v_dot prec u u) (f_mul prec w w)))) (Vec (x 0%nat) (x 1%nat) (x 2%nat))
+    (columns_of prec (f_turn_by prec u w)).
+
+(** Coordinates in a tube: of the position, and of the quaternion's vector part. *)
+Definition scaled (prec : F.precision) (q : Q) (V : vec form) : vec form :=
+  v_scale prec (constant prec (fraction prec q)) V.
+Definition shift_form (prec : F.precision) (v : waypoint) : vec form -> vec form := scaled prec (coordinate_q v 13).
+Definition tube_turn (prec : F.precision) (v : waypoint) (y V : vec form) : vec form :=
+  f_turn_by prec (scaled prec (coordinate_q v 14) y) (constant prec (one prec)) V.
+Definition first_form (prec : F.precision) (z : six Q) : vec form := v_rational prec (Vec (at1 z) (at2 z) (at3 z)).
+Definition last_form (prec : F.precision) (z : six Q) : vec form := v_rational prec (Vec (at4 z) (at5 z) (at6 z)).
 
 Section Tube.
 
 Variables (prec : F.precision) (m : machine) (v w : waypoint) (x S : interval).
 
 Definition tube_reach : interval * list interval := (sub prec S x, repeat (zero prec) balls).
-Definition arm_range (c : cable) : vec form :=
-  v_tight prec tube_reach (turned prec (images (chord_form prec v w x S)) (v_rational prec (platform c))).
 Definition length_form (i : nat) : form := line_form prec v w x S (7 + i)%nat.
+
+(** From the chord's pose over a box: where a cable's anchor is from the platform's origin. *)
+Definition arm_range (chord : pose_form) (c : cable) : vec form :=
+  v_tight prec tube_reach (turned prec (images chord) (v_rational prec (platform c))).
 
 (** Half of |d|^2 - L^2, at some coordinates in the tube. *)
 Definition half_form (d : vec form) (L : form) : form :=
   f_mul prec (constant prec (fraction prec (1 # 2))) (f_sub prec (v_dot prec d d) (f_mul prec L L)).
-Definition scaled (q : Q) (V : vec form) : vec form := v_scale prec (constant prec (fraction prec q)) V.
-Definition start_form (z : six Q) (i : nat) (c : cable) : form :=
-  half_form (v_tight prec tube_reach (v_sub prec
-    (v_add prec
-      (v_add prec (place (chord_form prec v w x S)) (scaled (coordinate_q v 13) (v_rational prec (Vec (at1 z) (at2 z)
-        (at3 z)))))
-      (f_turn_by prec (scaled (coordinate_q v 14) (v_rational prec (Vec (at4 z) (at5 z) (at6 z)))) (constant prec (one
-        prec))
-        (arm_range c)))
-    (v_rational prec (base c)))) (length_form i).
+Definition vector_form (position y z : vec form) (c : cable) (arm : vec form) : vec form :=
+  v_sub prec (v_add prec (v_add prec position (shift_form prec v y)) (tube_turn prec v z arm))
+    (v_rational prec (base c)).
+Definition start_form (chord : pose_form) (z : six Q) (c : cable) (arm : vec form) (L : form) : form :=
+  half_form (v_tight prec tube_reach (vector_form (place chord) (first_form prec z) (last_form prec z) c arm)) L.
 
 (** The same anywhere in the tube, for all s: its slopes are those along the tube's coordinates. *)
 Definition whole (f : form) : form := constant prec (over f).
@@ -518,16 +523,14 @@ Definition any_vector (ball : nat) : vec form :=
   let i := one prec in
   let o := zero prec in
   Vec (any_form ball (Vec i o o)) (any_form ball (Vec o i o)) (any_form ball (Vec o o i)).
-Definition tube_form (i : nat) (c : cable) : form :=
-  half_form (v_sub prec
-    (v_add prec (v_add prec (v_whole (place (chord_form prec v w x S))) (scaled (coordinate_q v 13) (any_vector 0)))
-                (f_turn_by prec (scaled (coordinate_q v 14) (any_vector 1)) (constant prec (one prec)) (v_whole
-                  (arm_range c))))
-    (v_rational prec (base c))) (whole (length_form i)).
+Definition tube_form (chord : pose_form) (c : cable) (arm : vec form) (L : form) : form :=
+  half_form (vector_form (v_whole (place chord)) (any_vector 0) (any_vector 1) c (v_whole arm)) (whole L).
 Definition row_of_slopes (f : form) : six interval :=
-  let in_ball b := match nth b (slopes f) None with Some u => u | None => Vec (zero prec) (zero prec) (zero prec) end in
-  Six (vx (in_ball 0%nat)) (vy (in_ball 0%nat)) (vz (in_ball 0%nat))
-      (vx (in_ball 1%nat)) (vy (in_ball 1%nat)) (vz (in_ball 1%nat)).
+  let o := zero prec in
+  let in_ball b := match nth b (slopes f) None with Some u => u | None => Vec o o o end in
+  let y := in_ball 0%nat in
+  let z := in_ball 1%nat in
+  Six (vx y) (vy y) (vz y) (vx z) (vy z) (vz z).
 
 Definition transposed {A : Type} (M : six (six A)) : six (six A) :=
   Six (map6 at1 M) (map6 at2 M) (map6 at3 M) (map6 at4 M) (map6 at5 M) (map6 at6 M).
@@ -535,15 +538,19 @@ Definition indices : six nat := (Six 0 1 2 3 4 5)%nat.
 
 (** There is one pose with these lengths, and it is near the guess. *)
 Definition check_tube (b : tube_box) : bool :=
+  let chord := chord_form prec v w x S in
+  let arms := map6 (arm_range chord) (cables m) in
+  let lengths := map6 length_form indices in
   let C := map6 (map6 (number prec (tube_scale b))) (tube_inverse b) in
-  let starts := zip6 (start_form (guess b)) indices (cables m) in
-  let A := transposed (zip6 (fun i c => row_of_slopes (tube_form i c)) indices (cables m)) in
-  let E := zip6 (fun c unit => zip6 (fun a z => sub prec (integer prec z) (sum prec (zip6 (mul prec) c a))) A unit) C
-    units in
+  let starts := zip6 (fun f L => f L) (zip6 (start_form chord (guess b)) (cables m) arms) lengths in
+  let changes := zip6 (fun f L => f L) (zip6 (tube_form chord) (cables m) arms) lengths in
+  let A := transposed (map6 row_of_slopes changes) in
+  let left_of c a z := sub prec (integer prec z) (sum prec (zip6 (mul prec) c a)) in
+  let E := zip6 (fun c unit => zip6 (left_of c) A unit) C units in
   let rho := fold6 I.join (map6 (fun row => sum prec (map6 I.abs row)) E) in
-  let eta := fold6 I.join (map6 (fun c =>
-    I.abs (range prec tube_reach (f_sum prec (zip6 (fun a f => f_mul prec (constant prec a) f) c starts)))) C) in
-  every (map6 (fun i => above0 (over (length_form i))) indices) &&
+  let step c := f_sum prec (zip6 (fun a f => f_mul prec (constant prec a) f) c starts) in
+  let eta := fold6 I.join (map6 (fun c => I.abs (range prec tube_reach (step c))) C) in
+  every (map6 (fun L => above0 (over L)) lengths) &&
   every (map6 (fun z => Qle_bool (z + within b) 1 && Qle_bool (within b - z) 1) (guess b)) &&
   Z.ltb 0 (Qnum (1 - left b)) && below prec rho (fraction prec (left b)) &&
   below prec eta (fraction prec (within b * (1 - left b))).
@@ -554,19 +561,17 @@ End Tube.
     tube is whose coordinates are within q of these. *)
 Definition guess_form (prec : F.precision) (v w : waypoint) (z : six Q) : poses_form := fun x S =>
   let p := chord_form prec v w x S in
-  let turn := f_turn_by prec (scaled prec (coordinate_q v 14) (v_rational prec (Vec (at4 z) (at5 z) (at6 z))))
-    (constant prec (one prec)) in
-  PoseForm (is_turn p)
-    (v_add prec (place p) (scaled prec (coordinate_q v 13) (v_rational prec (Vec (at1 z) (at2 z) (at3 z)))))
+  let turn := tube_turn prec v (last_form prec z) in
+  PoseForm (is_turn p) (v_add prec (place p) (shift_form prec v (first_form prec z)))
     (Vec (turn (vx (images p))) (turn (vy (images p))) (turn (vz (images p)))).
 Definition near_guess (m : machine) (v : waypoint) (q : Q) : machine :=
   Machine (cables m) (load_point m) (load m) (pose_position m) (pose_angles m)
     (Tolerances (of_anchors (tolerance m)) (of_load_point (tolerance m)) (q * coordinate_q v 13 * (7 # 4))
       (Number (q * coordinate_q v 14 * (21 # 4)))).
 Definition is_exact (m : machine) : bool :=
-  every (map6 (fun t => vanishes (fst t) && vanishes (snd t)) (of_anchors (tolerance m))) &&
-  vanishes (of_load_point (tolerance m)) && vanishes (of_position (tolerance m)) &&
-  is_zero_number (of_orientation (tolerance m)).
+  let t := tolerance m in
+  every (map6 (fun a => Qeq_bool (fst a) 0 && Qeq_bool (snd a) 0) (of_anchors t)) &&
+  Qeq_bool (of_load_point t) 0 && Qeq_bool (of_position t) 0 && is_zero_number (of_orientation t).
 Definition has_tube (v : waypoint) : bool :=
   no_half_turns v && Z.ltb 0 (Qnum (coordinate_q v 13)) && Z.ltb 0 (Qnum (coordinate_q v 14)) &&
   Qle_bool (coordinate_q v 14) (1 # 8).
@@ -586,8 +591,8 @@ Fixpoint motions (prec : F.precision) (m : machine) (l : law) (path : list waypo
   | v :: rest =>
       match l, rest with
       | Straight, w :: _ => Explicit (fun x S => posed prec m (line_form prec v w x S)) :: motions prec m l rest
-      | Spline, b :: c :: d :: _ => Explicit (fun x S => posed prec m (spline_form prec v b c d x S)) :: motions prec
-        m l rest
+      | Spline, b :: c :: d :: _ =>
+          Explicit (fun x S => posed prec m (spline_form prec v b c d x S)) :: motions prec m l rest
       | Geodesic, w :: _ => Explicit (geodesic_form prec v w) :: motions prec m l rest
       | Lengths, w :: _ => Held v w :: motions prec m l rest
       | _, _ => []
@@ -601,13 +606,13 @@ Definition is_joined (l : law) (path : list waypoint) : bool :=
   match l with Geodesic => pairs turns_meet path | Lengths => pairs tubes_nest path | _ => true end.
 
 (** The middle of a box, and all of it. *)
-Definition middle_of (prec : F.precision) (start : Q) (b : box) : interval := fraction prec (Qred ((start + upto b) *
-  (1 # 2))).
+Definition middle_of (prec : F.precision) (start : Q) (b : box) : interval :=
+  fraction prec (Qred ((start + upto b) * (1 # 2))).
 Definition range_of (prec : F.precision) (start : Q) (b : box) : interval :=
   I.join (from_to prec start (upto b)) (middle_of prec start b).
 
-Definition check_poses (prec : F.precision) (c : certificate) (m : machine) (q : poses_form) (start : Q) (b : box) :
-  bool :=
+Definition check_poses (prec : F.precision) (c : certificate) (m : machine) (q : poses_form) (start : Q) (b : box)
+    : bool :=
   let x := middle_of prec start b in
   let S := range_of prec start b in
   check_pose prec (sub prec S x, radii prec m) m (tension_margin c) (length_margin c) b (q x S).

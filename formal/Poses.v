@@ -136,6 +136,14 @@ Qed.
 Lemma zero_of q : Qeq_bool q 0 = true -> Q2R q = 0.
 Proof. intros h. apply Qeq_bool_eq in h. apply Qeq_eqR in h. rewrite h. unfold Q2R. cbn. lra. Qed.
 
+(** Within no tolerance, no turn. *)
+Lemma no_angle e angle : is_zero_number e = true -> Rabs angle <= Rabs (value (fun _ => 0) e) -> angle = 0.
+Proof.
+  destruct e as [q | | | | | | | | | |]; try discriminate. cbn [is_zero_number value]. intros z h. apply zero_of in z.
+  rewrite z, Rabs_R0 in h. assert (p := Rabs_pos angle).
+  destruct (Req_dec angle 0) as [y | n]; [exact y |]. apply Rabs_pos_lt in n. lra.
+Qed.
+
 Lemma above_zero_of q : Z.ltb 0 (Qnum q) = true -> 0 < Q2R q.
 Proof.
   intros h. apply Z.ltb_lt in h. unfold Q2R. apply Rmult_lt_0_compat; [now apply IZR_lt |].
@@ -175,9 +183,9 @@ Lemma quad_of_reduced r k rows z w : List.length rows = List.length k ->
 Proof.
   revert rows z. induction k as [| x k IH]; intros [| s rows] z l; try discriminate l; [destruct z; cbn; ring |].
   destruct z as [| z1 z]; cbn [reduced map quad lin]; [ring |]. rewrite IH by (injection l; trivial).
-  assert (e : lin (map Q2R (if vanishes x then s else less_times x s r)) w = lin (map Q2R s) w - Q2R x * lin (map Q2R
+  assert (e : lin (map Q2R (if Qeq_bool x 0 then s else less_times x s r)) w = lin (map Q2R s) w - Q2R x * lin (map Q2R
     r) w).
-  { destruct (vanishes x) eqn:z0; [apply zero_of in z0; rewrite z0; ring |].
+  { destruct (Qeq_bool x 0) eqn:z0; [apply zero_of in z0; rewrite z0; ring |].
     now rewrite less_times_is, lin_of_less, lin_of_times. }
   rewrite e. ring.
 Qed.
@@ -221,7 +229,7 @@ Proof.
   - destruct h; constructor; assumption.
   - destruct h as [| y1 j y Y hy h]; cbn [map less less_range]; constructor; try (apply IH; now try constructor).
     + apply neg_is_in, mul_is_in; [exact hc | apply fraction_is_in].
-    + destruct (vanishes x) eqn:z; [apply zero_of in z; now rewrite z, Rmult_0_r, Rminus_0_r |].
+    + destruct (Qeq_bool x 0) eqn:z; [apply zero_of in z; now rewrite z, Rmult_0_r, Rminus_0_r |].
       apply sub_is_in; [exact hy |]. apply mul_is_in; [exact hc | apply fraction_is_in].
 Qed.
 
@@ -408,26 +416,20 @@ Proof.
       ring.
 Qed.
 
+Ltac by_angle := intros h [a [b c]]; assert (hc := cos_encloses prec t _ _ _ h);
+  assert (hs := sin_encloses prec t _ _ _ h); split; [| split]; cbn; by_parts.
+
 Lemma rot_x_encloses F q q' V u u' : enc F q q' -> v_encloses V u u' ->
   v_encloses (f_rot_x prec (f_cos prec F) (f_sin prec F) V) (rot_x q u) (rot_x q' u').
-Proof.
-  intros h [a [b c]]. assert (hc := cos_encloses prec t _ _ _ h). assert (hs := sin_encloses prec t _ _ _ h).
-  split; [| split]; cbn; by_parts.
-Qed.
+Proof. by_angle. Qed.
 
 Lemma rot_y_encloses F q q' V u u' : enc F q q' -> v_encloses V u u' ->
   v_encloses (f_rot_y prec (f_cos prec F) (f_sin prec F) V) (rot_y q u) (rot_y q' u').
-Proof.
-  intros h [a [b c]]. assert (hc := cos_encloses prec t _ _ _ h). assert (hs := sin_encloses prec t _ _ _ h).
-  split; [| split]; cbn; by_parts.
-Qed.
+Proof. by_angle. Qed.
 
 Lemma rot_z_encloses F q q' V u u' : enc F q q' -> v_encloses V u u' ->
   v_encloses (f_rot_z prec (f_cos prec F) (f_sin prec F) V) (rot_z q u) (rot_z q' u').
-Proof.
-  intros h [a [b c]]. assert (hc := cos_encloses prec t _ _ _ h). assert (hs := sin_encloses prec t _ _ _ h).
-  split; [| split]; cbn; by_parts.
-Qed.
+Proof. by_angle. Qed.
 
 Lemma v_dot_encloses V W u u' w w' : v_encloses V u u' -> v_encloses W w w' ->
   enc (v_dot prec V W) (dot u w) (dot u' w').
@@ -527,10 +529,7 @@ Lemma orientation_encloses : images_enclose R_form (turn at_m) turned_off.
 Proof.
   destruct p_encloses as [_ [x [y z]]]. unfold R_form, orientation_form.
   destruct (is_zero_number (of_orientation (tolerance m))) eqn:still.
-  - assert (zero : angle = 0).
-    { destruct (of_orientation (tolerance m)) as [q | | | | | | | | | |]; try discriminate still.
-      cbn in still, angle_is_small. apply zero_of in still. rewrite still, Rabs_R0 in angle_is_small.
-      assert (h := Rabs_pos angle). destruct (Req_dec angle 0) as [e | n]; [exact e |]. apply Rabs_pos_lt in n. lra. }
+  - assert (zero := no_angle _ _ still angle_is_small).
     assert (same : forall u, turned_off u = turn to_s u).
     { intros u. unfold turned_off. rewrite zero. apply turn_about_by_nothing. }
     unfold images_enclose. rewrite !same. split; [| split]; assumption.

@@ -155,6 +155,23 @@ Proof.
   repeat first [apply v_add_encloses | apply v_scale_encloses; assumption].
 Qed.
 
+(** Coordinates in a tube. *)
+Lemma scaled_encloses t q V u u' : v_encloses t V u u' ->
+  v_encloses t (scaled prec q V) (times (Q2R q) u) (times (Q2R q) u').
+Proof. intros h. apply v_scale_encloses; [apply constant_encloses, fraction_is_in | exact h]. Qed.
+
+Lemma shift_encloses t v V u u' : no_half_turns v = true -> v_encloses t V u u' ->
+  v_encloses t (shift_form prec v V) (times (coordinate v 13) u) (times (coordinate v 13) u').
+Proof. intros r. rewrite (without_half_turns v) by exact r. apply scaled_encloses. Qed.
+
+Lemma tube_turn_encloses t v Y y y' V u u' : no_half_turns v = true -> v_encloses t Y y y' -> v_encloses t V u u' ->
+  v_encloses t (tube_turn prec v Y V) (turn_by (Quaternion (times (coordinate v 14) y) 1) u)
+    (turn_by (Quaternion (times (coordinate v 14) y') 1) u').
+Proof.
+  intros r hy hv. rewrite (without_half_turns v) by exact r.
+  apply turn_by_encloses; [now apply scaled_encloses | apply one_encloses | exact hv].
+Qed.
+
 Section Tube.
 
 Variables (m : machine) (v w : waypoint) (x S : interval) (middle s : R).
@@ -163,6 +180,7 @@ Hypotheses (middle_in_x : is_in middle x) (middle_in_S : is_in middle S) (s_in :
 
 Let L (i : nat) : R := on_line v w s (7 + i).
 Let chord := on_chord v w.
+Let chord_box := chord_form prec v w x S.
 Let g (z : nat -> R) : nat -> R := excess m L (tube_pose v (chord s) z).
 
 (** *** Along s, in the middle of the tube *)
@@ -189,7 +207,7 @@ Lemma chord_is_enclosed : is_rigid (chord middle) /\ is_rigid (chord s) /\
   pose_encloses along (chord_form prec v w x S) (chord middle) (chord s).
 Proof. exact (chord_follows prec v w middle s x S along middle_in_x middle_in_S s_in eq_refl turns). Qed.
 
-Lemma arm_is_enclosed c : v_encloses along (arm_range prec v w x S c)
+Lemma arm_is_enclosed c : v_encloses along (arm_range prec x S chord_box c)
   (turn (chord middle) (real_vec (platform c))) (turn (chord s) (real_vec (platform c))).
 Proof.
   destruct chord_is_enclosed as [[lm _] [[ls _] [_ h]]]. unfold arm_range. apply tight_enc.
@@ -210,21 +228,27 @@ Lemma anchors_of_itself i : nth6 (anchors (itself m)) i = (real_vec (base (nth6 
   real_vec (platform (nth6 (cables m) i))).
 Proof. unfold itself. cbn [anchors]. now rewrite nth6_map. Qed.
 
-Lemma start_is_enclosed z i : exists q, encloses along (start_form prec v w x S z i (nth6 (cables m) i)) q
-  (g (fun k => Q2R (nth6 z k)) i).
+Lemma vector_encloses t Q q q' Y y y' Z z z' A a a' c : v_encloses t Q q q' -> v_encloses t Y y y' ->
+  v_encloses t Z z z' -> v_encloses t A a a' ->
+  v_encloses t (vector_form prec v Q Y Z c A)
+    (minus (plus (plus q (times (coordinate v 13) y)) (turn_by (Quaternion (times (coordinate v 14) z) 1) a))
+      (real_vec (base c)))
+    (minus (plus (plus q' (times (coordinate v 13) y')) (turn_by (Quaternion (times (coordinate v 14) z') 1) a'))
+      (real_vec (base c))).
+Proof.
+  intros hq hy hz ha. apply v_sub_encloses; [| apply v_rational_encloses]. apply v_add_encloses.
+  - apply v_add_encloses; [exact hq | now apply shift_encloses].
+  - now apply tube_turn_encloses.
+Qed.
+
+Lemma start_is_enclosed z i : exists q, encloses along
+  (start_form prec v x S chord_box z (nth6 (cables m) i) (arm_range prec x S chord_box (nth6 (cables m) i))
+    (length_form prec v w x S i)) q (g (fun k => Q2R (nth6 z k)) i).
 Proof.
   destruct chord_is_enclosed as [_ [_ [h _]]].
   unfold g, excess, cable_of. rewrite anchors_of_itself.
-  eexists. unfold start_form. apply half_encloses; [| apply length_is_enclosed].
-  apply tight_enc. unfold cable_vector, tube_pose. cbn [fst snd position turn].
-  rewrite !(without_half_turns v) by exact v_is_rational.
-  assert (scale : forall q u, v_encloses along (scaled prec q (v_rational prec u)) (times (Q2R q) (real_vec u)) (times
-    (Q2R q) (real_vec u)))
-    by (intros q u; apply v_scale_encloses; [apply constant_encloses, fraction_is_in | apply v_rational_encloses]).
-  apply v_sub_encloses; [| apply v_rational_encloses]. apply v_add_encloses.
-  - apply v_add_encloses; [exact h | exact (scale _ (Vec (at1 z) (at2 z) (at3 z)))].
-  - apply turn_by_encloses; [exact (scale _ (Vec (at4 z) (at5 z) (at6 z))) | apply one_encloses
-    | apply arm_is_enclosed].
+  eexists. unfold start_form. apply half_encloses; [| apply length_is_enclosed]. apply tight_enc.
+  apply vector_encloses; [exact h | | | apply arm_is_enclosed]; apply v_rational_encloses.
 Qed.
 
 (** *** From one place in the tube to another *)
@@ -270,38 +294,33 @@ Proof.
     unfold dot, minus. cbn. ring.
 Qed.
 
-Lemma scaled_encloses q V u u' : v_encloses across V u u' -> v_encloses across (scaled prec q V) (times (Q2R q) u)
-  (times (Q2R q) u').
-Proof. intros h. apply v_scale_encloses; [apply constant_encloses, fraction_is_in | exact h]. Qed.
-
 Lemma parts_in_box y : in_box y -> in_unit_box (first3 y) /\ in_unit_box (last3 y).
 Proof.
   intros h. split; (split; [| split]); cbn; apply h; lia.
 Qed.
 
-Lemma excess_is_enclosed i : (i < 6)%nat -> encloses across (tube_form prec v w x S i (nth6 (cables m) i)) (g z i) (g
-  z' i).
+Lemma excess_is_enclosed i : encloses across
+  (tube_form prec v chord_box (nth6 (cables m) i) (arm_range prec x S chord_box (nth6 (cables m) i))
+    (length_form prec v w x S i)) (g z i) (g z' i).
 Proof.
-  intros li. destruct chord_is_enclosed as [_ [_ [h _]]].
+  destruct chord_is_enclosed as [_ [_ [h _]]].
   destruct (parts_in_box z z_in) as [a b]. destruct (parts_in_box z' z'_in) as [a' b'].
   unfold g, excess, cable_of. rewrite anchors_of_itself. unfold tube_form.
   apply half_encloses; [| eapply whole_encloses, length_is_enclosed].
-  unfold cable_vector, tube_pose. cbn [fst snd position turn].
-  rewrite !(without_half_turns v) by exact v_is_rational.
-  apply v_sub_encloses; [| apply v_rational_encloses]. apply v_add_encloses.
-  - apply v_add_encloses; [eapply v_whole_encloses, h |]. apply scaled_encloses.
-    apply any_vector_encloses; [unfold balls; lia | exact a | exact a' | reflexivity].
-  - apply turn_by_encloses; [| apply one_encloses | eapply v_whole_encloses, arm_is_enclosed]. apply scaled_encloses.
-    apply any_vector_encloses; [unfold balls; lia | exact b | exact b' | reflexivity].
+  apply vector_encloses; [eapply v_whole_encloses, h | | | eapply v_whole_encloses, arm_is_enclosed].
+  - apply any_vector_encloses; [unfold balls; lia | exact a | exact a' | reflexivity].
+  - apply any_vector_encloses; [unfold balls; lia | exact b | exact b' | reflexivity].
 Qed.
 
 (** A row of the derivative. *)
-Lemma row_is_enclosed i : (i < 6)%nat -> exists a : nat -> R,
+Lemma row_is_enclosed i : exists a : nat -> R,
   g z' i - g z i = total (fun j => a j * (z' j - z j)) /\
-  forall j, (j < 6)%nat -> is_in (a j) (nth6 (row_of_slopes prec (tube_form prec v w x S i (nth6 (cables m) i))) j).
+  forall j, (j < 6)%nat -> is_in (a j) (nth6 (row_of_slopes prec
+    (tube_form prec v chord_box (nth6 (cables m) i) (arm_range prec x S chord_box (nth6 (cables m) i))
+      (length_form prec v w x S i))) j).
 Proof.
-  intros li. destruct (excess_is_enclosed i li) as [_ [_ [_ [k [[_ hk] e]]]]].
-  set (f := tube_form prec v w x S i (nth6 (cables m) i)) in *.
+  destruct (excess_is_enclosed i) as [_ [_ [_ [k [[_ hk] e]]]]].
+  set (f := tube_form _ _ _ _ _ _) in *.
   exists (of_vecs (of_ball k 0) (of_ball k 1)). split.
   - rewrite e. unfold moved, across, balls, SixEquations.total. cbn [of_place of_ball sum_over of_vecs].
     unfold first3, last3, minus, dot. cbn [vx vy vz]. ring.
@@ -346,8 +365,8 @@ Proof.
   { intros i k. unfold CI. rewrite !nth6_map. apply number_is_in. }
   set (z0 := fun i => Q2R (nth6 (guess b) i)).
   assert (lengths : forall i, (i < 6)%nat -> 0 < L i).
-  { intros i li. assert (h := every_is_true _ hL i li). rewrite nth6_map in h.
-    rewrite index_is in h by exact li.
+  { intros i li. assert (h := every_is_true _ hL i li).
+    rewrite !nth6_map, index_is in h by exact li.
     destruct (length_is_enclosed i) as [_ [_ [e _]]]. eapply above0_is_true; [exact h | exact e]. }
   assert (same_length : forall i, (i < 6)%nat -> nth6 (map6 (on_line v w s) (Six 7 8 9 10 11 12)%nat) i = L i)
     by (apply each_of_six; reflexivity).
@@ -356,7 +375,11 @@ Proof.
   { intros P. rewrite has_lengths_each. split; intros h i li.
     - apply excess_is_0; [now apply lengths |]. rewrite (h i li). now apply same_length.
     - assert (e := h i li). apply excess_is_0 in e; [| now apply lengths]. rewrite e. symmetry. now apply same_length. }
-  set (rows := zip6 (fun i c => row_of_slopes prec (tube_form prec v w x S i c)) indices (cables m)) in *.
+  fold chord_box in hrho, heta. set (arms := map6 (arm_range prec x S chord_box) (cables m)) in *.
+  set (held_lengths := map6 (length_form prec v w x S) indices) in *.
+  set (forms := zip6 _ (zip6 (tube_form prec v chord_box) (cables m) arms) held_lengths) in *.
+  set (begins := zip6 _ (zip6 (start_form prec v x S chord_box (guess b)) (cables m) arms) held_lengths) in *.
+  set (rows := map6 (row_of_slopes prec) forms) in *.
   set (E := zip6 (fun (c : six interval) (unit : six Z) => zip6 (fun a z =>
     sub prec (integer prec z) (sum prec (zip6 (mul prec) c a)))
     (transposed rows) unit) CI units) in hrho.
@@ -366,8 +389,8 @@ Proof.
   { intros z z' hz hz'.
     destruct (six_choices (fun i (a : nat -> R) => g z' i - g z i = total (fun j => a j * (z' j - z j)) /\
       forall j, (j < 6)%nat -> is_in (a j) (nth6 (nth6 rows i) j))) as [A hA].
-    { intros i li. destruct (row_is_enclosed z z' hz hz' i li) as [a [ea ia]]. exists a. split; [exact ea |].
-      unfold rows. rewrite nth6_zip, index_is by exact li. exact ia. }
+    { intros i li. destruct (row_is_enclosed z z' hz hz' i) as [a [ea ia]]. exists a. split; [exact ea |].
+      unfold rows, forms, held_lengths, arms. rewrite nth6_map, !nth6_zip, !nth6_map, index_is by exact li. exact ia. }
     exists A. split; [intros i li; apply hA; exact li |]. intros k lk.
     assert (hE : forall i, (i < 6)%nat -> forall j, (j < 6)%nat -> is_in (error6 C A i j) (nth6 (nth6 E i) j)).
     { intros i li j lj. unfold E. rewrite !nth6_zip. unfold SixEquations.error6.
@@ -385,16 +408,14 @@ Proof.
     C i k * g z0 k)) <= Q2R (within b) * (1 - Q2R (left b))).
   { assert (in_eta : is_in (most (fun i => Rabs (total (fun k => C i k * g z0 k))))
       (fold6 I.join (map6 (fun c => I.abs (range prec (tube_reach prec x S) (f_sum prec
-        (zip6 (fun a f => f_mul prec (constant prec a) f) c (zip6 (start_form prec v w x S (guess b)) indices (cables
-          m)))))) CI))).
+        (zip6 (fun a f => f_mul prec (constant prec a) f) c begins)))) CI))).
     { apply most_is_in. intros i li. rewrite nth6_map. apply abs_is_in.
-      destruct (six_choices (fun k q => encloses along (start_form prec v w x S (guess b) k (nth6 (cables m) k)) q (g
-        z0 k))) as [q hq].
-      { intros k lk. apply start_is_enclosed. }
+      destruct (six_choices (fun k q => encloses along (nth6 begins k) q (g z0 k))) as [q hq].
+      { intros k lk. unfold begins, held_lengths, arms. rewrite !nth6_zip, !nth6_map, index_is by exact lk.
+        apply start_is_enclosed. }
       apply (range_is_in prec along (tube_reach prec x S) along_has_0 along_is_in eq_refl along_is_within _
         (total (fun k => C i k * q k))).
-      apply (f_sum_encloses prec along (tube_reach prec x S) eq_refl). intros k lk.
-        rewrite !nth6_zip, index_is by exact lk.
+      apply (f_sum_encloses prec along (tube_reach prec x S) eq_refl). intros k lk. rewrite nth6_zip.
       apply mul_encloses; [apply constant_encloses, hC | now apply hq]. }
     assert (e := below_is_true _ _ _ _ _ heta in_eta (fraction_is_in prec _)).
     rewrite Q2R_mult, Q2R_minus, one_of_Q in e. intros i li. apply Rle_trans with (2 := Rlt_le _ _ e).
@@ -421,17 +442,11 @@ Lemma exact_is_tracked m P P' : is_exact m = true -> is_tracked m P P' -> P' = P
 Proof.
   unfold is_exact. rewrite !andb_true_iff. intros [[_ position_is_0] turn_is_0] [off [n [angle [ho [_ [ha ->]]]]]].
   apply zero_of in position_is_0. rewrite position_is_0 in ho. rewrite (norm_is_zero off ho).
-  assert (zero : angle = 0).
-  { destruct (of_orientation (tolerance m)) as [q | | | | | | | | | |]; try discriminate turn_is_0.
-    cbn in turn_is_0, ha. apply zero_of in turn_is_0. rewrite turn_is_0, Rabs_R0 in ha.
-    assert (h := Rabs_pos angle). destruct (Req_dec angle 0) as [e | k]; [exact e |]. apply Rabs_pos_lt in k. lra. }
+  assert (zero := no_angle _ _ turn_is_0 ha).
   rewrite zero. destruct P as [[x y z] f]. cbn [position turn]. f_equal.
   - unfold plus. cbn. f_equal; ring.
   - apply functional_extensionality. intros u. apply turn_about_by_nothing.
 Qed.
-
-Lemma above_0 q : Z.ltb 0 (Qnum q) = true -> 0 < Q2R q.
-Proof. apply above_zero_of. Qed.
 
 (** A platform in the tube is one of a machine that may be off by how far its coordinates are from others. *)
 Lemma guess_is_near m v q P z y : has_tube v = true -> in_box z -> in_box y ->
@@ -479,13 +494,10 @@ Proof.
     - intros u. rewrite (l u) at 1. apply turn_by_is_linear.
     - intros a b. rewrite turn_by_keeps_dot by apply sq. apply d. }
   split; [now apply rigid | split; [now apply rigid |]].
-  assert (scale : forall q u, v_encloses t (scaled prec q (v_rational prec u)) (times (Q2R q) (real_vec u))
-    (times (Q2R q) (real_vec u)))
-    by (intros q u; apply v_scale_encloses; [apply constant_encloses, fraction_is_in | apply v_rational_encloses]).
-  unfold tube_pose. rewrite !(without_half_turns v) by exact rational. split; cbn [position turn place images].
-  - apply v_add_encloses; [exact hp | exact (scale _ (Vec (at1 y) (at2 y) (at3 y)))].
-  - split; [| split]; cbn [vx vy vz]; (apply turn_by_encloses;
-      [exact (scale _ (Vec (at4 y) (at5 y) (at6 y))) | apply one_encloses | assumption]).
+  split; cbn [guess_form position turn place images].
+  - apply v_add_encloses; [exact hp | apply shift_encloses; [exact rational | apply v_rational_encloses]].
+  - split; [| split]; cbn [vx vy vz];
+      (apply tube_turn_encloses; [exact rational | apply v_rational_encloses | assumption]).
 Qed.
 
 Theorem held_box_is_sound c v w start b : check_box prec c (Held v w) start b = true ->

@@ -153,48 +153,12 @@ Proof.
   intros h. apply square_is_positive in h. rewrite square_of_between in h. split; intros z; rewrite z in h; lra.
 Qed.
 
-(** What a quaternion of length 1 turns to. *)
-Definition quadratic (q : quaternion) (u : vec R) : vec R :=
-  plus (plus (times (scalar_part q * scalar_part q - dot (vector_part q) (vector_part q)) u)
-             (times (2 * dot (vector_part q) u) (vector_part q)))
-       (times (2 * scalar_part q) (cross (vector_part q) u)).
-
-(** The turn by r and then by p. *)
+(** The turn by r and then by p, and a quaternion of another length. *)
 Definition after (p r : quaternion) : quaternion :=
   Quaternion (plus (plus (times (scalar_part p) (vector_part r)) (times (scalar_part r) (vector_part p)))
                    (cross (vector_part p) (vector_part r)))
              (scalar_part p * scalar_part r - dot (vector_part p) (vector_part r)).
-
-Lemma quadratic_of_after p r u : quadratic p (quadratic r u) = quadratic (after p r) u.
-Proof.
-  destruct p as [[a b c] d], r as [[e f g] h], u as [x y z].
-  cbv [quadratic after dot plus times cross vector_part scalar_part vx vy vz]. f_equal; ring.
-Qed.
-
-Lemma quadratic_of_between p q u :
-  quadratic p (quadratic (between p q) u) = times (square p * square p) (quadratic q u).
-Proof.
-  rewrite quadratic_of_after. destruct p as [[a b c] d], q as [[e f g] h]. set (k := square (Quaternion (Vec a b c) d)).
-  replace (after _ _) with (Quaternion (Vec (k * e) (k * f) (k * g)) (k * h)).
-  - destruct u as [x y z]. clearbody k. cbv [quadratic dot plus times cross vector_part scalar_part vx vy vz].
-    f_equal; ring.
-  - unfold k. cbv [square after between dot minus plus times cross vector_part scalar_part vx vy vz].
-    f_equal; [f_equal |]; ring.
-Qed.
-
-Lemma quadratic_of_times q k u : quadratic q (times k u) = times k (quadratic q u).
-Proof.
-  destruct q as [[a b c] d], u as [x y z]. unfold quadratic, dot, plus, times, cross.
-  cbn [vector_part scalar_part vx vy vz]. f_equal; ring.
-Qed.
-
-(** From the one quaternion's axes, [between] leads to the other's. *)
-Lemma turn_by_between p q u : square p <> 0 -> square q <> 0 -> turn_by p (turn_by (between p q) u) = turn_by q u.
-Proof.
-  intros hp hq. assert (is : forall r w, turn_by r w = times (/ square r) (quadratic r w)) by reflexivity.
-  rewrite !is, square_of_between, quadratic_of_times, quadratic_of_between. destruct (quadratic q u) as [x y z].
-  unfold times. cbn [vx vy vz]. f_equal; field; split; assumption.
-Qed.
+Definition longer (k : R) (q : quaternion) : quaternion := Quaternion (times k (vector_part q)) (k * scalar_part q).
 
 (** From the turn by the one to that by the other, in the world's axes: q times the conjugate of p. *)
 Definition onward (p q : quaternion) : quaternion :=
@@ -202,25 +166,49 @@ Definition onward (p q : quaternion) : quaternion :=
                     (cross (vector_part q) (vector_part p)))
              (scalar_part p * scalar_part q + dot (vector_part q) (vector_part p)).
 
+Ltac by_parts_of_quaternions := cbv [after longer onward between square dot minus plus times cross vector_part
+  scalar_part vx vy vz]; first [ring | f_equal; [f_equal |]; ring].
+
+Lemma after_between p q : after p (between p q) = longer (square p) q.
+Proof. destruct p as [[a b c] d], q as [[e f g] h]. by_parts_of_quaternions. Qed.
+
+Lemma after_onward p q : after (onward p q) p = longer (square p) q.
+Proof. destruct p as [[a b c] d], q as [[e f g] h]. by_parts_of_quaternions. Qed.
+
+Lemma square_of_after p r : square (after p r) = square p * square r.
+Proof. destruct p as [[a b c] d], r as [[e f g] h]. by_parts_of_quaternions. Qed.
+
 Lemma square_of_onward p q : square (onward p q) = square p * square q.
+Proof. destruct p as [[a b c] d], q as [[e f g] h]. by_parts_of_quaternions. Qed.
+
+Lemma turn_by_after p r u : square p <> 0 -> square r <> 0 -> turn_by p (turn_by r u) = turn_by (after p r) u.
 Proof.
-  destruct p as [[a b c] d], q as [[e f g] h].
-  unfold square, onward, dot, minus, times, cross. cbn [vector_part scalar_part vx vy vz]. ring.
+  intros hp hr. unfold turn_by. fold (square p) (square r) (square (after p r)). rewrite square_of_after.
+  revert hp hr. generalize (square p), (square r). intros k l hk hl.
+  destruct p as [[a b c] d], r as [[e f g] h], u as [x y z].
+  cbv [after dot plus minus times cross vector_part scalar_part vx vy vz]. f_equal; field; split; assumption.
+Qed.
+
+Lemma turn_by_longer k q u : k <> 0 -> square q <> 0 -> turn_by (longer k q) u = turn_by q u.
+Proof.
+  intros hk hq. assert (e : square (longer k q) = k * k * square q)
+    by (destruct q as [[a b c] d]; by_parts_of_quaternions).
+  unfold turn_by. fold (square q) (square (longer k q)). rewrite e. revert hq. generalize (square q). intros l hl.
+  destruct q as [[a b c] d], u as [x y z].
+  cbv [longer dot plus minus times cross vector_part scalar_part vx vy vz]. f_equal; field; split; assumption.
+Qed.
+
+(** From the one quaternion's axes, [between] leads to the other's; and from its turn, [onward] does. *)
+Lemma turn_by_between p q u : square p <> 0 -> square q <> 0 -> turn_by p (turn_by (between p q) u) = turn_by q u.
+Proof.
+  intros hp hq. rewrite turn_by_after, after_between; [now apply turn_by_longer | exact hp |].
+  rewrite square_of_between. now apply Rmult_integral_contrapositive.
 Qed.
 
 Lemma turn_by_onward p q u : square p <> 0 -> square q <> 0 -> turn_by (onward p q) (turn_by p u) = turn_by q u.
 Proof.
-  intros hp hq. assert (is : forall r w, turn_by r w = times (/ square r) (quadratic r w)) by reflexivity.
-  assert (e : quadratic (onward p q) (quadratic p u) = times (square p * square p) (quadratic q u)).
-  { rewrite quadratic_of_after. clear is hp hq. destruct p as [[a b c] d], q as [[e f g] h].
-    set (k := square (Quaternion (Vec a b c) d)).
-    replace (after _ _) with (Quaternion (Vec (k * e) (k * f) (k * g)) (k * h)).
-    - destruct u as [x y z]. clearbody k. cbv [quadratic dot plus times cross vector_part scalar_part vx vy vz].
-      f_equal; ring.
-    - unfold k. cbv [square after onward dot minus plus times cross vector_part scalar_part vx vy vz].
-      f_equal; [f_equal |]; ring. }
-  rewrite !is, square_of_onward, quadratic_of_times, e. destruct (quadratic q u) as [x y z].
-  unfold times. cbn [vx vy vz]. f_equal; field; split; assumption.
+  intros hp hq. rewrite turn_by_after, after_onward; [now apply turn_by_longer | | exact hp].
+  rewrite square_of_onward. now apply Rmult_integral_contrapositive.
 Qed.
 
 (** A quaternion turns by twice the angle whose tangent is its vector part by its scalar part. *)

@@ -310,8 +310,9 @@ std::string boxes_text(const std::vector<std::vector<Box>>& boxes) {
 void require_in_scope(const Certificate& certificate) {
   const Problem& problem = certificate.problem;
   const Interpolation law = certificate.path.interpolation;
-  if (law == Interpolation::kCableLengths && problem.tolerances)
+  if (law == Interpolation::kCableLengths && problem.tolerances) {
     refuse("a machine controlled by its cables' lengths, with tolerances");
+  }
   if (certificate.path.segments() == 0) refuse("a path of a single waypoint");
   if (problem.tolerances && problem.tolerances->cable_length_m) refuse("a machine controlled by its cables' lengths");
   if (problem.bodies) refuse("bodies");

@@ -46,7 +46,7 @@ class Load {
   /// A square a (z_k + k·z')^2, where z' are the coordinates after z_k.
   struct Square {
     Interval scale;
-    std::vector<Interval> others;  ///< k; none where all are 0
+    std::vector<Interval> others;  ///< k
   };
   struct Ellipsoid {
     std::array<Interval, 6> center, shift;

@@ -186,7 +186,7 @@ class Geodesic {
       const std::vector<double>& x = segment.control[end]->x;
       const int exponent = largest_exponent(std::span(x).subspan(3, 4));
       for (std::size_t i = 0; i < 4; ++i) q[end][i] = Rational(std::ldexp(x[3 + i], -exponent));
-      for (std::size_t i = 0; i < 3; ++i) position_[end][i] = Slope(Interval(x[i]));
+      for (std::size_t i = 0; i < 3; ++i) position_[end][i] = Interval(x[i]);
     }
     const auto& [p, r] = q;
     std::array<Interval, 3> vector;
@@ -205,8 +205,8 @@ class Geodesic {
   }
 
   [[nodiscard]] Vector position(const Slope& s) const {
-    Vector result = position_[0];
-    for (std::size_t i = 0; i < 3; ++i) result[i] = result[i] + s * (position_[1][i] - position_[0][i]);
+    Vector result;
+    for (std::size_t i = 0; i < 3; ++i) result[i] = on_line(position_[0][i], position_[1][i], s);
     return result;
   }
   [[nodiscard]] Columns columns(const Slope& s) const {
@@ -215,7 +215,7 @@ class Geodesic {
   }
 
  private:
-  std::array<Vector, 2> position_;
+  std::array<std::array<Interval, 3>, 2> position_;
   std::optional<QuaternionTurn> first_;  ///< R_0
   Vector axis_;
   Interval angle_{0.0};
