@@ -81,5 +81,11 @@ class Audits(InFolder):
         return json.loads(text_of(self.path(out, "certificate.json")))
 
 
+def certify(case, out):
+    """Plans a case, or audits it where it is one of cases/audits, without a report and without asking for headroom."""
+    command = "audit" if case.startswith(AUDITS + os.sep) else "plan"
+    return run(TAUT, command, case, "--out", out, "--no-report", "--headroom", "0")
+
+
 def main():
     unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2)
