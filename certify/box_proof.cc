@@ -338,6 +338,7 @@ struct Inertia {
     }
     if (!problem.moving->may_stop()) return;
     slowed_at_mid = problem.moving->at(model, segment, mid, Speeds::kAny);
+    if (slowed_at_mid) problem.moving->bound_rates(*slowed_at_mid);
     box.is_slowed_badly = !slowed_at_mid || !is_slowed_well(problem, inverse, box);
   }
 
@@ -391,19 +392,26 @@ typename BoxEnclosure<I>::RateMargins rate_margins(const ProofModel<I>& problem,
     at_mid[i] = box.high[i].at_mid;
     over[i] = problem.model.tension_upper[i] - disturbed;
   }
+  std::array<I, kCables> undisturbed;
+  for (std::size_t i = 0; i < kCables; ++i) undisturbed[i] = box.high[i].range;
   const Moving<I>& mid = inertia.at_mid ? *inertia.at_mid : inertia.over;
-  typename BoxEnclosure<I>::RateMargins result{mid.margins, inertia.over.margins};
+  typename BoxEnclosure<I>::RateMargins result{mid.margins, inertia.over.margins, inertia.over.margins};
   problem.moving->add_powers(mid, at_mid, result.at_mid);
   problem.moving->add_powers(inertia.over, over, result.over);
+  problem.moving->add_powers(inertia.over, undisturbed, result.undisturbed);
   return result;
 }
 
-/// Whether all over the box everything that is limited is known to be within its limits.
+/// Whether everything that is limited is known to be within its limits at the midpoint, less what deviations take of
+/// the box: of a move from what its rates are over all of the box. Without rates, of the rest.
 template <class I>
-bool is_clear(const ProofModel<I>& problem, const BoxEnclosure<I>& box) {
+bool is_midpoint_clear(const BoxEnclosure<I>& box) {
   const auto is_kept = [](const RateMargin<I>& rate) { return certainly_positive(rate.value); };
-  return box.margins.are_positive() && (!problem.tolerance || box.disturbance) &&
-         (!box.rates || std::ranges::all_of(box.rates->over, is_kept));
+  const auto is_inside = [](const auto& margin) {
+    const double lost = lower_bound(margin.value.range) - lower_bound(margin.disturbed);
+    return lower_bound(margin.value.at_mid) > std::max(lost, 0.0);
+  };
+  return std::ranges::all_of(box.margins, is_inside) && (!box.rates || std::ranges::all_of(box.rates->over, is_kept));
 }
 
 /// How far a deviation may change a margin.
@@ -506,8 +514,8 @@ void add_disturbance(const ProofModel<I>& problem, UndisturbedBox<I> undisturbed
 
 namespace {
 
-/// enclose_box(). Of a move, `mid` may be left out where the box is proved: then statements about the midpoint are no
-/// sharper than those about the box.
+/// enclose_box(). Of a move, `mid` may be left out where nothing depends on it: then statements about the midpoint are
+/// no sharper than those about the box.
 enum class Midpoint { kAlways, kIfUnproved };
 template <class I>
 BoxEnclosure<I> enclose(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
@@ -560,13 +568,18 @@ BoxEnclosure<I> enclose(const ProofModel<I>& problem, const Segment& segment, co
   set_tensions(result);
   if (inertia) inertia->add(problem, inverse, result);
   add_tension_margins(model, result);
-  if (inertia) {
-    if (result.margins.are_positive()) problem.moving->tighten(model, segment, s.range, inertia->over);
+  // Of rates nothing is asked where a tension or a length is not proved.
+  const bool are_rates_asked = inertia && (mid == Midpoint::kAlways || result.margins.are_positive());
+  if (are_rates_asked) {
+    problem.moving->bound_rates(inertia->over);
+    if (result.margins.are_positive()) problem.moving->tighten(inertia->over);
     result.rates = rate_margins(problem, *inertia, result);
   }
   const auto look_at_mid = [&] {
-    if (!inertia || (mid == Midpoint::kIfUnproved && is_clear(problem, result))) return;
+    if (!inertia || (mid == Midpoint::kIfUnproved && is_midpoint_clear(result))) return;
     inertia->look_at_mid(problem, segment, s.mid, inverse, result);
+    if (!are_rates_asked) return;
+    if (inertia->at_mid) problem.moving->bound_rates(*inertia->at_mid);
     result.rates = rate_margins(problem, *inertia, result);
   };
   if (!problem.tolerance || !result.margins.are_positive()) {
@@ -758,7 +771,12 @@ void judge_rates(const typename BoxEnclosure<I>::RateMargins& rates, BoxVerdict&
       return;
     }
     if (verdict.kind == Kind::kPrecision || certainly_positive(rates.over[n].value)) continue;
-    verdict.kind = certainly_positive(at_mid) ? Kind::kSplit : Kind::kPrecision;
+    // To deviations, of which a smaller box would hardly know less.
+    const double lost = lower_bound(rates.undisturbed[n].value) - lower_bound(rates.over[n].value);
+    const bool is_lost = lost > 0 && !(lower_bound(at_mid) > lost);
+    const Kind kind = !certainly_positive(at_mid) ? Kind::kPrecision : is_lost ? Kind::kTolerance : Kind::kSplit;
+    if (verdict.kind == Kind::kSplit && kind == Kind::kTolerance) continue;
+    verdict.kind = kind;
     verdict.rate = rates.over[n].id;
   }
 }
@@ -872,8 +890,11 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
     verdict.kind = within_tolerance || !all_positive_undisturbed ? Kind::kSplit : Kind::kTolerance;
   }
   if (verdict.kind != Kind::kRefuted && verdict.kind != Kind::kProved) verdict.worst = weakest(problem, enclosure);
-  if (enclosure.rates) verdict.wrench_scale = 1;  // the growth of K is not claimed of moves
-  if (verdict.kind == Kind::kProved && enclosure.rates) judge_rates<I>(*enclosure.rates, verdict);
+  if (segment.timing != nullptr) verdict.wrench_scale = 1;  // the growth of K is not claimed of moves
+  if (verdict.kind == Kind::kProved && segment.timing != nullptr) {
+    if (!enclosure.rates) throw std::logic_error("a box of a move without its rates");
+    judge_rates<I>(*enclosure.rates, verdict);
+  }
   if (verdict.kind == Kind::kSplit && enclosure.is_slowed_badly) verdict.kind = Kind::kSlowing;
   verdict.clearance_m = std::numeric_limits<double>::infinity();
   if (verdict.kind == Kind::kProved && directions != nullptr && problem.bodies) {

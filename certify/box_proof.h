@@ -100,6 +100,7 @@ struct BoxEnclosure {
   /// every time at which the move is there; their slopes are those at rest.
   struct RateMargins {
     std::vector<RateMargin<I>> at_mid, over;
+    std::vector<RateMargin<I>> undisturbed;  ///< as `over`, with the undisturbed machine's tensions
   };
   std::optional<RateMargins> rates;
   /// Of a move that may be slowed down: at the midpoint, while it is, something is not shown to be within its limits.
@@ -136,7 +137,7 @@ struct BoxVerdict {
   };
   Kind kind = Kind::kFault;
   MarginId worst;  ///< the margin that decided, or stood in the way
-  /// If kTooFast. If kSplit or kPrecision: where all margins are positive, and this rate stands in the way.
+  /// If kTooFast. If kSplit, kPrecision or kTolerance: where all margins are positive, and this rate stands in the way.
   std::optional<RateId> rate;
   /// Only if kRefuted: `worst` is proved not positive on all of T.
   bool throughout = false;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How motions move that equations imply (segment.h): their derivatives by s, for any scalar.
+// How motions move that equations imply (segment.h): their first N derivatives by s, N being 2 or 3.
 //
-// Where F(y(s), s) = 0 and F_y is regular at y(s), y is as smooth as F (implicit function theorem). With y, y' and y''
-// in jets of jets,
-//   y'  = −F_y^-1 (F(y, s))'   where y' is taken for 0,
-//   y'' = −F_y^-1 (F(y, s))''  where y' is known and y'' is taken for 0.
-// Constraints: F = C(ℓ + N y). Cable lengths: with v = p' and R' = [w] R, |d_i|² = L_i² gives twice
-//   d_i·(p' + w × x_i) = L_i L_i',   d_i·(p'' + w' × x_i) = L_i'² − |d_i'|² − d_i·(w × (w × x_i)),   x_i = R b_i.
+// Where F(y(s), s) = 0 and F_y is regular at y(s), y is as smooth as F (implicit function theorem), and in turn
+//   y_n = −F_y^-1 (F(y, s))_n,
+// the n-th derivatives, where those of y below y_n are known and y_n is taken for 0.
+// Constraints: F = C(ℓ + N y). Cable lengths: with R' = [w] R and x_i = R b_i, |d_i|² = L_i² gives three times, as L_i
+// is straight,
+//   d·(p' + w × x) = L L',   d·(p'' + w' × x) = L'² − |d'|² − d·(w × x'),
+//   d·(p''' + w'' × x) = −3 d'·d'' − d·(2 w' × x' + w × x'').
 // docs/theory.md, "Implied motions in time".
 #pragma once
 
@@ -14,33 +15,32 @@
 #include <span>
 #include <vector>
 
+#include "kinematics/jet.h"
 #include "kinematics/path_rates.h"
 
 namespace taut {
 
 /// λ = ℓ + N y in a space with constraints, for every s in `range`; unknowns are the first `count` of six.
-template <class S>
+template <class S, int N>
 class ConstrainedCurve {
  public:
   /// @pre each control point has a finite entry of N for each constraint
   ConstrainedCurve(const Segment& segment, std::size_t count, const S& range) : count_(count) {
     for (std::size_t j = 0; j < segment.control[0]->x.size(); ++j) {
-      line_.push_back(second_jet(coordinate_polynomial<S>(segment, j), range));
+      line_.push_back(with_derivatives<N>(coordinate_polynomial<S>(segment, j), range));
       for (std::size_t i = 0; i < count; ++i) {
-        normals_.push_back(second_jet(normal_polynomial<S>(segment, j * count + i), range));
+        normals_.push_back(with_derivatives<N>(normal_polynomial<S>(segment, j * count + i), range));
       }
     }
   }
 
   [[nodiscard]] std::size_t count() const { return count_; }
 
-  [[nodiscard]] std::vector<SecondJet<S>> at(const Vector6<S>& y, const Vector6<S>& y1, const Vector6<S>& y2) const {
-    std::vector<SecondJet<S>> result = line_;
+  /// @param y  with its derivatives
+  [[nodiscard]] std::vector<Taylor<S, N>> at(const std::array<Taylor<S, N>, 6>& y) const {
+    std::vector<Taylor<S, N>> result = line_;
     for (std::size_t j = 0; j < line_.size(); ++j) {
-      for (std::size_t i = 0; i < count_; ++i) {
-        const auto n = static_cast<int>(i);
-        result[j] = result[j] + normals_[j * count_ + i] * second_jet<S>(y(n), y1(n), y2(n));
-      }
+      for (std::size_t i = 0; i < count_; ++i) result[j] = result[j] + normals_[j * count_ + i] * y[i];
     }
     return result;
   }
@@ -60,7 +60,7 @@ class ConstrainedCurve {
       for (std::size_t i = 0; i < count_; ++i) {
         S sum(0.0);
         for (std::size_t j = 0; j < lambda.size(); ++j) {
-          sum = sum + c[e].partial[j] * value_of(normals_[j * count_ + i]);
+          sum = sum + c[e].partial[j] * normals_[j * count_ + i].d[0];
         }
         result(static_cast<int>(e), static_cast<int>(i)) = sum;
       }
@@ -70,37 +70,26 @@ class ConstrainedCurve {
 
  private:
   std::size_t count_;
-  std::vector<SecondJet<S>> line_;     ///< ℓ
-  std::vector<SecondJet<S>> normals_;  ///< N by rows
+  std::vector<Taylor<S, N>> line_;     ///< ℓ
+  std::vector<Taylor<S, N>> normals_;  ///< N by rows
 };
 
-namespace implied_rates_detail {
-
-template <class S>
-[[nodiscard]] Vector6<S> zeros() {
-  Vector6<S> result;
-  for (int k = 0; k < 6; ++k) result(k) = S(0.0);
-  return result;
-}
-
-}  // namespace implied_rates_detail
-
 /// λ with its derivatives, where y are the unknowns that satisfy C(λ) = 0 and divide(v) is F_y^-1 v.
-template <class S, class Divide>
-[[nodiscard]] std::vector<SecondJet<S>> implied_parameters(const Evaluator<SecondJet<S>>& constraints,
-                                                           const ConstrainedCurve<S>& curve, const Vector6<S>& y,
+template <class S, int N, class Divide>
+[[nodiscard]] std::vector<Taylor<S, N>> implied_parameters(const Evaluator<Taylor<S, N>>& constraints,
+                                                           const ConstrainedCurve<S, N>& curve, const Vector6<S>& y,
                                                            const Divide& divide) {
-  const Vector6<S> none = implied_rates_detail::zeros<S>();
-  const auto minus_divided = [&](const Vector6<S>& y1, const S& (*derivative)(const SecondJet<S>&)) {
-    std::vector<SecondJet<S>> values(curve.count());
-    constraints.evaluate(curve.at(y, y1, none), values);
-    Vector6<S> rest = none;
-    for (std::size_t e = 0; e < values.size(); ++e) rest(static_cast<int>(e)) = -derivative(values[e]);
-    return Vector6<S>(divide(rest));
-  };
-  const Vector6<S> y1 = minus_divided(none, first_of<S>);
-  const Vector6<S> y2 = minus_divided(y1, second_of<S>);
-  return curve.at(y, y1, y2);
+  std::array<Taylor<S, N>, 6> unknowns;
+  for (std::size_t i = 0; i < 6; ++i) unknowns[i] = Taylor<S, N>(y(static_cast<int>(i)));
+  std::vector<Taylor<S, N>> values(curve.count());
+  for (std::size_t n = 1; n <= N; ++n) {
+    constraints.evaluate(curve.at(unknowns), values);
+    Vector6<S> rest;
+    for (std::size_t e = 0; e < 6; ++e) rest(static_cast<int>(e)) = e < values.size() ? S(-values[e].d[n]) : S(0.0);
+    const Vector6<S> found = divide(rest);
+    for (std::size_t i = 0; i < curve.count(); ++i) unknowns[i].d[n] = found(static_cast<int>(i));
+  }
+  return curve.at(unknowns);
 }
 
 /// Row i is (d_i ; R b_i × d_i), which multiplied by (p' ; w) is d_i·d_i'.
@@ -123,44 +112,54 @@ template <class S>
 
 /// For every s in `range`, of a segment that is straight in cable lengths: (p, R) is the pose there, and divide(v) is
 /// the inverse of length_gradients() times v.
-template <class S, class Divide>
-[[nodiscard]] PathRates<S> rates_of_lengths(const Model<S>& model, const Vector3<S>& p_WP, const Matrix3<S>& r_WP,
-                                            const Segment& segment, const S& range, const Divide& divide) {
+template <int N, class S, class Divide>
+[[nodiscard]] PathRatesOf<S, N> rates_of_lengths(const Model<S>& model, const Vector3<S>& p_WP, const Matrix3<S>& r_WP,
+                                                 const Segment& segment, const S& range, const Divide& divide) {
   constexpr std::size_t kFirstLength = 7;
-  std::array<S, kCables> lengths, length_rates;
+  struct Cable {
+    S length, rate;
+    Vector3<S> x, d, d1;
+  };
+  std::array<Cable, kCables> cables;
   for (std::size_t i = 0; i < kCables; ++i) {
     const Polynomial<S> line = coordinate_polynomial<S>(segment, kFirstLength + i);
-    lengths[i] = line.at(range);
-    length_rates[i] = line.slope(range);
+    Cable& cable = cables[i];
+    cable.length = line.at(range);
+    cable.rate = line.slope(range);
+    cable.x = turned(r_WP, model.p_PB[i]);
+    for (int k = 0; k < 3; ++k) cable.d(k) = p_WP(k) + cable.x(k) - model.p_WA[i](k);
   }
-  PathRates<S> result;
+  const auto sum = [](const Vector3<S>& a, const Vector3<S>& b) {
+    return Vector3<S>(a(0) + b(0), a(1) + b(1), a(2) + b(2));
+  };
+  const auto dot = [](const Vector3<S>& a, const Vector3<S>& b) { return S(a(0) * b(0) + a(1) * b(1) + a(2) * b(2)); };
+  // A derivative of (p, turning), from its products with the rows of length_gradients().
+  const auto solve = [&](const auto& product, Vector3<S>& p, Vector3<S>& w) {
+    Vector6<S> products;
+    for (int i = 0; i < 6; ++i) products(i) = product(cables[static_cast<std::size_t>(i)]);
+    const Vector6<S> found = divide(products);
+    for (int k = 0; k < 3; ++k) {
+      p(k) = found(k);
+      w(k) = found(3 + k);
+    }
+  };
+  PathRatesOf<S, N> result;
   result.p = p_WP;
   result.r_WP = r_WP;
-  Vector6<S> products;
-  for (int i = 0; i < 6; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    products(i) = lengths[n] * length_rates[n];
-  }
-  const Vector6<S> first = divide(products);
-  for (int k = 0; k < 3; ++k) {
-    result.p1(k) = first(k);
-    result.w(k) = first(3 + k);
-  }
-  Vector6<S> rest;
-  for (int i = 0; i < 6; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    const Vector3<S> x = turned(r_WP, model.p_PB[n]);
-    const Vector3<S> turning = cross(result.w, x), centripetal = cross(result.w, turning);
-    rest(i) = sqr(length_rates[n]);
-    for (int k = 0; k < 3; ++k) {
-      const S d = p_WP(k) + x(k) - model.p_WA[n](k);
-      rest(i) = rest(i) - sqr(S(result.p1(k) + turning(k))) - d * centripetal(k);
-    }
-  }
-  const Vector6<S> second = divide(rest);
-  for (int k = 0; k < 3; ++k) {
-    result.p2(k) = second(k);
-    result.w1(k) = second(3 + k);
+  solve([](const Cable& c) { return S(c.length * c.rate); }, result.p1, result.w);
+  const auto first = [&](const Cable& c) { return Vector3<S>(cross(result.w, c.x)); };             // x'
+  const auto centripetal = [&](const Cable& c) { return Vector3<S>(cross(result.w, first(c))); };  // w × x'
+  for (Cable& c : cables) c.d1 = sum(result.p1, first(c));
+  const auto of_second = [&](const Cable& c) {
+    return S(sqr(c.rate) - (sqr(c.d1(0)) + sqr(c.d1(1)) + sqr(c.d1(2))) - dot(c.d, centripetal(c)));
+  };
+  solve(of_second, result.p2, result.w1);
+  if constexpr (N == 3) {
+    const auto of_third = [&](const Cable& c) {
+      const Vector3<S> second = sum(cross(result.w1, c.x), centripetal(c)), once = cross(result.w1, first(c));
+      return S(-(S(3.0) * dot(c.d1, sum(result.p2, second))) - dot(c.d, sum(sum(once, once), cross(result.w, second))));
+    };
+    solve(of_third, result.p3, result.w2);
   }
   return result;
 }

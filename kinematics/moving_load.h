@@ -27,6 +27,12 @@ struct PathRates {
   Vector3<S> w, w1;      ///< [rad], axes of W
 };
 
+/// With one derivative more.
+template <class S>
+struct ThirdPathRates : PathRates<S> {
+  Vector3<S> p3, w2;  ///< p''' [m], w'' [rad]
+};
+
 /// The same by time.
 template <class S>
 struct Rates {
@@ -148,6 +154,17 @@ template <class S>
   return sum;
 }
 
+/// p + R c by s where R c = `arm`, three times derived [m].
+template <class S>
+[[nodiscard]] Vector3<S> third_derivative_at(const ThirdPathRates<S>& x, const Vector3<S>& arm) {
+  const Vector3<S> first = cross(x.w, arm), outer = cross(x.w1, arm), inner = cross(x.w, first);
+  const Vector3<S> second(outer(0) + inner(0), outer(1) + inner(1), outer(2) + inner(2));
+  const Vector3<S> a = cross(x.w2, arm), b = cross(x.w1, first), c = cross(x.w, second);
+  Vector3<S> result;
+  for (int k = 0; k < 3; ++k) result(k) = x.p3(k) + a(k) + S(2.0) * b(k) + c(k);
+  return result;
+}
+
 /// What a winch does: L̇ [m/s] and L̈ [m/s²], with v and a of the anchor B_i:
 ///   L L̇ = d·v,   L L̈ + L̇² = |v|² + d·a.
 template <class S>
@@ -172,6 +189,23 @@ template <class S>
   const S l = length(d);
   const S speed = by_speed / l;
   return {speed, (square - sqr(speed) + by_acceleration) / l};
+}
+
+/// L''' by s, given L' and L'': L L''' + 3 L' L'' = 3 v·a + d·j, with v, a and j of the anchor B_i.
+template <class S>
+[[nodiscard]] S third_derivative_of_length(const Model<S>& model, std::size_t cable, const ThirdPathRates<S>& x,
+                                           const WinchRate<S>& by_s) {
+  const Rates<S> rates{x.p1, x.p2, x.w, x.w1};
+  const Vector3<S> arm = turned(x.r_WP, model.p_PB[cable]);
+  const Vector3<S> v = velocity_at(rates, arm), a = acceleration_at(rates, arm), j = third_derivative_at(x, arm);
+  S bend = -(by_s.speed * by_s.acceleration), sum(0.0);
+  Vector3<S> d;
+  for (int k = 0; k < 3; ++k) {
+    d(k) = x.p(k) + arm(k) - model.p_WA[cable](k);
+    bend = bend + v(k) * a(k);
+    sum = sum + d(k) * j(k);
+  }
+  return (sum + S(3.0) * bend) / length(d);
 }
 
 /// Of all winches.

@@ -11,7 +11,7 @@ RatesSampler::RatesSampler(const Problem& problem) : poses_(problem), rates_(pro
   if (problem.space.constraints.empty()) return;
   const ExpressionTape tape = constraint_tape(problem);
   constraints_.emplace(
-      Constraints{Evaluator<Jet<double, kMaxConstrainedParameters>>(tape), Evaluator<SecondJet<double>>(tape)});
+      Constraints{Evaluator<Jet<double, kMaxConstrainedParameters>>(tape), Evaluator<Taylor<double, 2>>(tape)});
 }
 
 PathRates<double> RatesSampler::at(const Segment& segment, double s) const {
@@ -26,15 +26,17 @@ PathRates<double> RatesSampler::at(const Segment& segment, double s) const {
 
 PathRates<double> RatesSampler::on_constraints(const Segment& segment, double s) const {
   const std::optional<ConstraintFunctions>& functions = poses_.constraints();
-  const ConstrainedCurve<double> curve(segment, static_cast<std::size_t>(functions->count()), s);
-  const Vector6<double> none = Vector6<double>::Zero();
-  Vector6<double> y = none;
+  const ConstrainedCurve<double, 2> curve(segment, static_cast<std::size_t>(functions->count()), s);
+  Vector6<double> y = Vector6<double>::Zero();
   if (const auto found = functions->unknowns(segment, s)) y.head(found->size()) = *found;
+  std::array<Taylor<double, 2>, 6> unknowns;
+  for (std::size_t i = 0; i < 6; ++i) unknowns[i] = Taylor<double, 2>(y(static_cast<int>(i)));
   std::vector<double> lambda;
-  for (const SecondJet<double>& x : curve.at(y, none, none)) lambda.push_back(value_of(x));
+  for (const Taylor<double, 2>& x : curve.at(unknowns)) lambda.push_back(x.d[0]);
   const Eigen::PartialPivLU<Matrix6<double>> by_y(curve.by_unknowns(constraints_->gradients, lambda));
-  return rates_.of(implied_parameters(constraints_->jets, curve, y,
-                                      [&](const Vector6<double>& v) { return Vector6<double>(by_y.solve(v)); }));
+  const std::vector<Taylor<double, 2>> parameters = implied_parameters(
+      constraints_->derivatives, curve, y, [&](const Vector6<double>& v) { return Vector6<double>(by_y.solve(v)); });
+  return rates_.of(parameters);
 }
 
 PathRates<double> RatesSampler::along_geodesic(const Segment& segment, double s) const {
@@ -56,8 +58,8 @@ PathRates<double> RatesSampler::of_lengths(const Segment& segment, double s) con
   const RigidPose pose = poses_.rigid_pose(segment, s);
   const Matrix3<double> r_WP = pose.q.toRotationMatrix();
   const Eigen::PartialPivLU<Matrix6<double>> gradients(length_gradients(poses_.model(), pose.p, r_WP));
-  return rates_of_lengths(poses_.model(), pose.p, r_WP, segment, s,
-                          [&](const Vector6<double>& v) { return Vector6<double>(gradients.solve(v)); });
+  return rates_of_lengths<2>(poses_.model(), pose.p, r_WP, segment, s,
+                             [&](const Vector6<double>& v) { return Vector6<double>(gradients.solve(v)); });
 }
 
 }  // namespace taut

@@ -25,10 +25,10 @@ class RatesSampler {
   [[nodiscard]] PathRates<double> of_lengths(const Segment& segment, double s) const;
 
   PoseSampler poses_;
-  PathRatesModel<double> rates_;
+  PathRatesModel<double, 2> rates_;
   struct Constraints {
     Evaluator<Jet<double, kMaxConstrainedParameters>> gradients;
-    Evaluator<SecondJet<double>> jets;
+    Evaluator<Taylor<double, 2>> derivatives;
   };
   std::optional<Constraints> constraints_;
 };

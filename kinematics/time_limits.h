@@ -65,6 +65,10 @@ inline constexpr std::array kRateKinds = {RateKind::kWinchSpeed,
   return kind == RateKind::kWinchSpeed || kind == RateKind::kWinchAcceleration || kind == RateKind::kWinchPower;
 }
 
+[[nodiscard]] constexpr bool is_speed(RateKind kind) {
+  return kind == RateKind::kWinchSpeed || kind == RateKind::kLoadSpeed || kind == RateKind::kLoadAngularSpeed;
+}
+
 struct RateId {
   RateKind kind = RateKind::kWinchSpeed;
   int cable = 0;  ///< of winches

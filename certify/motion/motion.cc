@@ -153,14 +153,17 @@ bool has_normals(const Segment& segment, std::size_t count) {
 
 template <class I, std::size_t K = 1>
 bool implied_parameters(const ConstraintModel<I>& constraints, const Segment& segment, const I& range, const I& mid,
-                        const I& offset, Parameters<I>& parameters, Vector6<I>* unknowns = nullptr) {
+                        const I& offset, Parameters<I>& parameters, ImpliedParameters<I>* unknowns = nullptr) {
   if (constraints.count == K) {
     const Parameters<I> line = parameters;
     const ConstraintSystem<K, I> system(constraints, segment, line, range, mid);
     std::array<SlopeForm<I>, K> y;
     if (!ParametricKrawczyk<K, I, ConstraintSystem<K, I>>(system, offset, segment.tube).enclose(y)) return false;
     parameters = system.parameters(y, offset);
-    for (std::size_t i = 0; unknowns != nullptr && i < K; ++i) (*unknowns)(static_cast<int>(i)) = y[i].range;
+    for (std::size_t i = 0; unknowns != nullptr && i < K; ++i) {
+      unknowns->over.y(static_cast<int>(i)) = y[i].range;
+      unknowns->at_mid.y(static_cast<int>(i)) = y[i].at_mid;
+    }
     return true;
   }
   if constexpr (K + 1 < kMaxConstrainedParameters) {
@@ -314,9 +317,12 @@ std::optional<ImpliedParameters<I>> enclose_implied_parameters(const ConstraintM
   if (!has_normals(segment, constraints.count)) return std::nullopt;
   Parameters<I> parameters = line_over_box(segment, range, mid, offset);
   ImpliedParameters<I> result;
-  for (int k = 0; k < 6; ++k) result.y(k) = I(0.0);
-  if (!implied_parameters(constraints, segment, range, mid, offset, parameters, &result.y)) return std::nullopt;
-  for (const SlopeForm<I>& x : parameters) result.lambda.push_back(x.range);
+  for (int k = 0; k < 6; ++k) result.over.y(k) = result.at_mid.y(k) = I(0.0);
+  if (!implied_parameters(constraints, segment, range, mid, offset, parameters, &result)) return std::nullopt;
+  for (const SlopeForm<I>& x : parameters) {
+    result.over.lambda.push_back(x.range);
+    result.at_mid.lambda.push_back(x.at_mid);
+  }
   return result;
 }
 

@@ -70,11 +70,15 @@ template <class I>
 [[nodiscard]] MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& segment, const I& range,
                                                 const I& mid, const I& offset);
 
-/// What constraints imply over T: y of segment.h, as the first of six unknowns of which the others are 0, and λ.
+/// What constraints imply, over T and at m: y of segment.h, as the first of six unknowns of which the others are 0, and
+/// λ.
 template <class I>
 struct ImpliedParameters {
-  Vector6<I> y;
-  std::vector<I> lambda;
+  struct Where {
+    Vector6<I> y;
+    std::vector<I> lambda;
+  };
+  Where over, at_mid;
 };
 /// Nothing where they are not shown to imply one motion in the tube. Parameters may be out of their ranges. Arguments
 /// as of enclose_motion(). @pre the law runs through parameters

@@ -10,14 +10,6 @@
 namespace taut {
 namespace {
 
-/// A number of the range, as an interval, and all that a place of the range may be beyond it.
-template <class I>
-struct Middle {
-  I mid, offset;
-
-  explicit Middle(const I& range) : mid(ProofScalarTraits<I>::point(range)), offset(range - mid) {}
-};
-
 template <class I>
 Vector3<I> ranges(const Vector3<SlopeForm<I>>& x) {
   return {x(0).range, x(1).range, x(2).range};
@@ -30,68 +22,96 @@ Matrix3<I> ranges(const Matrix3<SlopeForm<I>>& x) {
   return result;
 }
 
-template <class I>
-std::optional<PathRates<I>> along_geodesic(const Segment& segment, const I& range) {
-  const Middle<I> at(range);
-  const std::optional<Geodesic<I>> geodesic = enclose_geodesic(segment, range, at.mid, at.offset);
+/// @param mid, offset  a number of the range, and all that a place of it may be beyond that
+template <int N, class I>
+std::optional<PathRatesOf<I, N>> along_geodesic(const Segment& segment, const I& range, const I& mid, const I& offset) {
+  const std::optional<Geodesic<I>> geodesic = enclose_geodesic(segment, range, mid, offset);
   if (!geodesic) return std::nullopt;
-  PathRates<I> result;
+  PathRatesOf<I, N> result;
   result.p = ranges(geodesic->p_WP);
   result.r_WP = ranges(geodesic->r_WP);
   result.w = geodesic->turn;
   for (int k = 0; k < 3; ++k) {
     result.p1(k) = geodesic->p_WP(k).slope;  // p is straight
     result.p2(k) = result.w1(k) = I(0.0);
+    if constexpr (N == 3) result.p3(k) = result.w2(k) = I(0.0);
   }
   return result;
 }
 
-template <class I>
-std::optional<PathRates<I>> of_lengths(const Model<I>& model, const Segment& segment, const I& range) {
-  const Middle<I> at(range);
-  const MotionEnclosure<I> motion = forward_kinematics(model, segment, range, at.mid, at.offset);
+template <int N, class I>
+std::optional<PathRatesOf<I, N>> of_lengths(const Model<I>& model, const Segment& segment, const I& range, const I& mid,
+                                            const I& offset) {
+  const MotionEnclosure<I> motion = forward_kinematics(model, segment, range, mid, offset);
   if (!motion.is_enclosed()) return std::nullopt;
   const Vector3<I> p = ranges(motion.p_WP);
   const Matrix3<I> r = ranges(motion.r_WP);
   EnclosedInverse<I> inverse;
   if (!inverse.set(length_gradients(model, p, r))) return std::nullopt;
-  return rates_of_lengths(model, p, r, segment, range, [&](const Vector6<I>& v) { return inverse.times(v); });
+  return rates_of_lengths<N>(model, p, r, segment, range, [&](const Vector6<I>& v) { return inverse.times(v); });
 }
 
 }  // namespace
 
 template <class I>
-MotionRates<I>::MotionRates(const Problem& problem) : poses_(problem) {
-  if (problem.space.constraints.empty()) return;
-  constraints_.emplace(make_constraint_model<I>(problem));
-  constraint_jets_.emplace(constraint_tape(problem));
+template <int N>
+MotionRates<I>::Derivatives<N>::Derivatives(const Problem& problem) : poses(problem) {
+  if (!problem.space.constraints.empty()) constraints.emplace(constraint_tape(problem));
 }
 
 template <class I>
-std::optional<PathRates<I>> MotionRates<I>::on_constraints(const Segment& segment, const I& range) const {
-  const Middle<I> at(range);
-  const std::optional<ImpliedParameters<I>> found =
-      enclose_implied_parameters(*constraints_, segment, range, at.mid, at.offset);
-  if (!found) return std::nullopt;
-  const ConstrainedCurve<I> curve(segment, constraints_->count, range);
+MotionRates<I>::MotionRates(const Problem& problem) : second_(problem), third_(problem) {
+  if (!problem.space.constraints.empty()) constraints_.emplace(make_constraint_model<I>(problem));
+}
+
+template <class I>
+template <int N>
+std::optional<PathRatesOf<I, N>> MotionRates<I>::on_constraints(
+    const Derivatives<N>& of, const Segment& segment, const I& range,
+    const typename ImpliedParameters<I>::Where& implied) const {
+  const ConstrainedCurve<I, N> curve(segment, constraints_->count, range);
   EnclosedInverse<I> inverse;
-  if (!inverse.set(curve.by_unknowns(constraints_->jets, found->lambda))) return std::nullopt;
-  std::vector<SecondJet<I>> parameters =
-      implied_parameters(*constraint_jets_, curve, found->y, [&](const Vector6<I>& v) { return inverse.times(v); });
-  for (std::size_t j = 0; j < parameters.size(); ++j) parameters[j].value.value = found->lambda[j];
-  return poses_.of(parameters);
+  if (!inverse.set(curve.by_unknowns(constraints_->jets, implied.lambda))) return std::nullopt;
+  std::vector<Taylor<I, N>> parameters =
+      implied_parameters(*of.constraints, curve, implied.y, [&](const Vector6<I>& v) { return inverse.times(v); });
+  for (std::size_t j = 0; j < parameters.size(); ++j) parameters[j].d[0] = implied.lambda[j];
+  return of.poses.of(parameters);
 }
 
 template <class I>
-std::optional<PathRates<I>> MotionRates<I>::over(const Model<I>& model, const Segment& segment, const I& range) const {
+auto MotionRates<I>::over(const Model<I>& model, const Segment& segment, const I& range) const -> std::optional<Over> {
+  Over result{range, ProofScalarTraits<I>::point(range), {}, std::nullopt};
+  const I offset = range - result.mid;
+  std::optional<ThirdPathRates<I>> path;
   switch (segment.law) {
-    case Interpolation::kGeodesic: return along_geodesic(segment, range);
-    case Interpolation::kCableLengths: return of_lengths(model, segment, range);
+    case Interpolation::kGeodesic: path = along_geodesic<3>(segment, range, result.mid, offset); break;
+    case Interpolation::kCableLengths: path = of_lengths<3>(model, segment, range, result.mid, offset); break;
+    case Interpolation::kStraight:
+    case Interpolation::kCubicBSpline:
+      if (!constraints_) {
+        path = third_.poses.along_curve(segment, range);
+        break;
+      }
+      result.implied = enclose_implied_parameters(*constraints_, segment, range, result.mid, offset);
+      if (result.implied) path = on_constraints(third_, segment, range, result.implied->over);
+  }
+  if (!path) return std::nullopt;
+  result.path = *std::move(path);
+  return result;
+}
+
+template <class I>
+std::optional<PathRates<I>> MotionRates<I>::at_middle(const Model<I>& model, const Segment& segment,
+                                                      const Over& over) const {
+  const I &mid = over.mid, none(0.0);
+  switch (segment.law) {
+    case Interpolation::kGeodesic: return along_geodesic<2>(segment, mid, mid, none);
+    case Interpolation::kCableLengths: return of_lengths<2>(model, segment, mid, mid, none);
     case Interpolation::kStraight:
     case Interpolation::kCubicBSpline: break;
   }
-  if (!constraints_) return poses_.along_curve(segment, range);
-  return on_constraints(segment, range);
+  if (!constraints_) return second_.poses.along_curve(segment, mid);
+  return on_constraints(second_, segment, mid, over.implied->at_mid);
 }
 
 template class MotionRates<Interval>;

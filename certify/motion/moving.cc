@@ -9,8 +9,10 @@
 namespace taut {
 namespace {
 
-bool is_speed(RateKind kind) {
-  return kind == RateKind::kWinchSpeed || kind == RateKind::kLoadSpeed || kind == RateKind::kLoadAngularSpeed;
+/// Places of a segment, among those of its path.
+template <class I>
+I on_path(const Segment& segment, const I& places) {
+  return I(static_cast<double>(segment.index)) + places;
 }
 
 }  // namespace
@@ -51,31 +53,6 @@ LawRange<I> slowed(const LawRange<I>& law, const I& slowing) {
   return {law.rate * share, law.acceleration * share + law.rate * hull(-slowing, slowing)};
 }
 
-/// ± x.
-template <class I>
-I plus_minus(const I& x) {
-  return hull(-x, x);
-}
-
-template <class I>
-I dot(const Vector3<I>& a, const Vector3<I>& b) {
-  return a(0) * b(0) + a(1) * b(1) + a(2) * b(2);
-}
-
-template <class I>
-I norm(const Vector3<I>& v) {
-  return euclidean_norm(v(0), v(1), v(2));
-}
-
-/// The magnitude of a velocity that is v0 at a time, v in between, and changes at the rate a, for `reach` at most: its
-/// square changes at the rate 2 v·a.
-template <class I>
-I magnitude_within(const Vector3<I>& v0, const Vector3<I>& v, const Vector3<I>& a, const I& reach) {
-  const I square = dot(v0, v0) + plus_minus(reach) * (I(2.0) * dot(v, a));
-  if (!(square.upper() >= 0)) return square;  // no number, and no bound
-  return sqrt(hull(I(0.0), I(square.upper())));
-}
-
 /// `size`, but not above `most`.
 template <class I>
 I no_more(const I& size, const I& most) {
@@ -84,136 +61,61 @@ I no_more(const I& size, const I& most) {
 
 }  // namespace
 
-/// Magnitudes of rates over a part of a box, at one (s̈, ṡ²) or all of a range. Those of a winch are enclosed when they
-/// are asked for.
 template <class I>
-class MovingModel<I>::Magnitudes {
- public:
-  Magnitudes(const Model<I>& model, const PathRates<I>& path, const LawRange<I>& law)
-      : model_(model), path_(path), rates_(by_time(path, law.rate, law.acceleration)) {}
-
-  [[nodiscard]] const Rates<I>& rates() const { return rates_; }
-  /// L̇ and L̈ of a winch.
-  [[nodiscard]] const WinchRate<I>& winch(std::size_t i) {
-    if (!winches_[i]) winches_[i] = winch_rate(model_, i, path_.p, path_.r_WP, rates_);
-    return *winches_[i];
-  }
-
-  [[nodiscard]] I operator()(const RateId& id) {
-    const auto i = static_cast<std::size_t>(id.cable);
-    const auto arm = [&] { return turned(path_.r_WP, model_.p_PM); };
-    switch (id.kind) {
-      case RateKind::kWinchSpeed: return absolute(winch(i).speed);
-      case RateKind::kWinchAcceleration: return absolute(winch(i).acceleration);
-      case RateKind::kLoadSpeed: return norm(velocity_at(rates_, arm()));
-      case RateKind::kLoadAcceleration: return norm(acceleration_at(rates_, arm()));
-      case RateKind::kLoadAngularSpeed: return norm(rates_.angular_velocity);
-      case RateKind::kWinchPower: throw std::logic_error("a power without a tension");
-      case RateKind::kLoadAngularAcceleration: break;
-    }
-    return norm(rates_.angular_acceleration);
-  }
-
- private:
-  const Model<I>& model_;
-  const PathRates<I>& path_;
-  Rates<I> rates_;
-  std::array<std::optional<WinchRate<I>>, kCables> winches_;
-};
-
-template <class I>
-std::optional<typename MovingModel<I>::Fastest> MovingModel<I>::fastest(const Part& part, Magnitudes& by_law,
-                                                                        const std::array<bool, kCables>& cables,
-                                                                        bool load) const {
-  const I index(static_cast<double>(part.segment.index));
-  const std::optional<LawInstant<I>> middle = law_instant(*part.segment.timing, part.times, I(index + part.range));
-  if (!middle) return std::nullopt;
+auto MovingModel<I>::middle_of_times(const RatesAlong<I>& along, const Part& part) -> std::optional<Middle> {
+  const Segment& segment = along.segment();
+  const I index(static_cast<double>(segment.index));
+  const std::optional<LawInstant<I>> time = law_instant(*segment.timing, part.times, I(index + part.here));
+  if (!time) return std::nullopt;
   // Beside the index, a number of the range may have been rounded: the place has to be in what accelerations are of.
-  const I place = middle->place - index;
-  if (!(place.lower() >= part.range.lower() && place.upper() <= part.range.upper())) return std::nullopt;
-  const Model<I>& model = part.model;
-  const PathRates<I>& path = part.path;
-  const std::optional<PathRates<I>> at_place = rates_.over(model, part.segment, place);
-  if (!at_place) return std::nullopt;
-  const PathRates<I>& at = *at_place;
-  const Rates<I>& all = by_law.rates();
-  const Rates<I> here = by_time(at, middle->rate, I(0.0));
-  Fastest result;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    if (!cables[i]) continue;
-    const I change = plus_minus(middle->reach) * by_law.winch(i).acceleration;
-    result.winch[i] = absolute(winch_rate(model, i, at.p, at.r_WP, here).speed + change);
-  }
-  if (!load) return result;
-  const Vector3<I> arm = turned(path.r_WP, model.p_PM), arm_here = turned(at.r_WP, model.p_PM);
-  result.load =
-      magnitude_within(velocity_at(here, arm_here), velocity_at(all, arm), acceleration_at(all, arm), middle->reach);
-  result.spin = magnitude_within(here.angular_velocity, all.angular_velocity, all.angular_acceleration, middle->reach);
-  return result;
+  const I place = time->place - index;
+  if (!(place.lower() >= part.here.lower() && place.upper() <= part.here.upper())) return std::nullopt;
+  return Middle{*time, place};
 }
 
 template <class I>
-typename MovingModel<I>::Limits MovingModel<I>::narrow(const Part& part, Limits open, std::vector<I>& sizes) const {
+auto MovingModel<I>::corners_of(const RatesAlong<I>& along, const Part& part) const -> Corners {
+  if (part.speeds != Speeds::kAny || !slowing_) return {};
+  const TimeLaw& law = *along.segment().timing;
+  const I& rate = part.law.rate;
+  return {LawRange<I>{rate, law_braking<I>(law, part.times, I(-*slowing_))},
+          LawRange<I>{rate, law_braking<I>(law, part.times, *slowing_)}, LawRange<I>{I(0.0), rate * *slowing_}};
+}
+
+template <class I>
+I MovingModel<I>::magnitude(RatesAlong<I>& along, const Part& part, const Corners& corners, const RateId& id) const {
+  I size = along.magnitude(id, part.here, part.law);
+  if (is_speed(id.kind)) return size;
+  for (const LawRange<I>& corner : corners) size = hull(size, along.magnitude(id, part.here, corner));
+  return size;
+}
+
+template <class I>
+typename MovingModel<I>::Limits MovingModel<I>::narrow(RatesAlong<I>& along, const Part& part, Limits open,
+                                                       std::vector<I>& sizes) const {
   const auto is_open = [&](std::size_t n) { return (open >> n & 1U) != 0; };
   const auto close = [&](std::size_t n) {
     if (certainly_positive(I(limits_[n].most - sizes[n]))) open &= ~(Limits{1} << n);
   };
-  Magnitudes at_speed(part.model, part.path, part.law);
-  for (std::size_t n = 0; n < limits_.size(); ++n) {
-    if (is_open(n)) sizes[n] = at_speed(limits_[n].id);
-  }
-  if (part.speeds == Speeds::kAny && slowing_) {
-    const TimeLaw& law = *part.segment.timing;
-    const I &rate = part.law.rate, braking = law_braking<I>(law, part.times, I(-*slowing_)),
-            gaining = law_braking<I>(law, part.times, *slowing_);
-    // At each time all are convex in (τ'², τ''): none is larger than at one of the corners of these.
-    for (const LawRange<I>& corner :
-         {LawRange<I>{rate, braking}, LawRange<I>{rate, gaining}, LawRange<I>{I(0.0), rate * *slowing_}}) {
-      Magnitudes slowed_down(part.model, part.path, corner);
-      for (std::size_t n = 0; n < limits_.size(); ++n) {
-        if (is_open(n) && !is_speed(limits_[n].id.kind)) sizes[n] = hull(sizes[n], slowed_down(limits_[n].id));
-      }
-    }
-  }
-  std::array<bool, kCables> cables{};
-  bool load = false, any = false;
+  const Corners corners = corners_of(along, part);
+  bool any_speed = false;
   for (std::size_t n = 0; n < limits_.size(); ++n) {
     if (!is_open(n)) continue;
+    sizes[n] = magnitude(along, part, corners, limits_[n].id);
     close(n);
-    if (!is_open(n) || !is_speed(limits_[n].id.kind)) continue;
-    any = true;
-    if (is_of_winch(limits_[n].id.kind)) {
-      cables[static_cast<std::size_t>(limits_[n].id.cable)] = true;
-    } else {
-      load = true;
-    }
+    any_speed = any_speed || (is_open(n) && is_speed(limits_[n].id.kind));
   }
-  if (!any) return open;
-  const std::optional<Fastest> most = fastest(part, at_speed, cables, load);
-  if (!most) return open;
+  if (open == 0) return open;
+  const std::optional<Middle> middle = any_speed ? middle_of_times(along, part) : std::nullopt;
+  if (!middle) return open;
+  along.look_at_middle();
   for (std::size_t n = 0; n < limits_.size(); ++n) {
-    if (!is_open(n)) continue;
-    switch (limits_[n].id.kind) {
-      case RateKind::kWinchSpeed:
-        sizes[n] = no_more(sizes[n], most->winch[static_cast<std::size_t>(limits_[n].id.cable)]);
-        break;
-      case RateKind::kLoadSpeed: sizes[n] = no_more(sizes[n], most->load); break;
-      case RateKind::kLoadAngularSpeed: sizes[n] = no_more(sizes[n], most->spin); break;
-      default: continue;
-    }
+    const RateId& id = limits_[n].id;
+    if (!is_open(n) || !is_speed(id.kind)) continue;
+    sizes[n] = no_more(sizes[n], along.speed_around(id, part.here, part.law, middle->place, middle->time));
     close(n);
   }
   return open;
-}
-
-template <class I>
-std::optional<typename MovingModel<I>::Part> MovingModel<I>::part_of(const Model<I>& model, const Segment& segment,
-                                                                     const I& range, Speeds speeds) const {
-  if (segment.timing == nullptr) throw std::logic_error("a segment without a time law");
-  const std::optional<PathRates<I>> path = rates_.over(model, segment, range);
-  if (!path) return std::nullopt;
-  const TimeCover times = time_cover(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
-  return Part{model, segment, times, range, *path, law_over(*segment.timing, times), speeds};
 }
 
 template <class I>
@@ -224,27 +126,23 @@ LawRange<I> MovingModel<I>::law_over(const TimeLaw& law, const TimeCover& times)
   return {pace_->speed * rate, sqr(pace_->speed) * acceleration + pace_->change * rate};
 }
 
-/// Whether limits are kept at all of these times at which the move is in `whole.range`. `sizes` grow by what is found.
 template <class I>
-bool MovingModel<I>::are_kept(const Whole& whole, const TimeCover& times, Limits open, int depth, Halving& halving,
+bool MovingModel<I>::are_kept(RatesAlong<I>& along, const TimeCover& times, Limits open, int depth, Halving& halving,
                               std::vector<I>& sizes) const {
   const auto are_halves_kept = [&](Limits limits) {
     return std::ranges::all_of(
-        halves(times), [&](const TimeCover& half) { return are_kept(whole, half, limits, depth + 1, halving, sizes); });
+        halves(times), [&](const TimeCover& half) { return are_kept(along, half, limits, depth + 1, halving, sizes); });
   };
   if (depth < halving.likely) return are_halves_kept(open);
-  const TimeLaw& law = *whole.segment.timing;
-  const I places = law_places<I>(law, times) - I(static_cast<double>(whole.segment.index));
-  const I& range = whole.range;
+  const TimeLaw& law = *along.segment().timing;
+  const I places = law_places<I>(law, times) - I(static_cast<double>(along.segment().index));
+  const I& range = along.range();
   if (places.upper() < range.lower() || places.lower() > range.upper()) return true;  // not at these times
   const I &begin = places.lower() > range.lower() ? places : range,
           &end = places.upper() < range.upper() ? places : range;
-  const I here = hull(I(begin.lower()), I(end.upper()));
-  const std::optional<PathRates<I>> path = rates_.over(whole.model, whole.segment, here);
-  if (!path) return false;
-  const Part part{whole.model, whole.segment, times, here, *path, law_over(law, times), Speeds::kAny};
+  const Part part{times, hull(I(begin.lower()), I(end.upper())), law_over(law, times), Speeds::kAny};
   std::vector<I> found = sizes;
-  const Limits left = narrow(part, open, found);
+  const Limits left = narrow(along, part, open, found);
   for (std::size_t n = 0; n < limits_.size(); ++n) {
     const Limits limit = Limits{1} << n;
     if ((left & limit) != 0 && certainly_nonpositive(I(limits_[n].most - found[n]))) return false;
@@ -260,47 +158,72 @@ bool MovingModel<I>::are_kept(const Whole& whole, const TimeCover& times, Limits
 }
 
 template <class I>
-Moving<I> MovingModel<I>::moving(const Part& part) const {
-  const PathRates<I>& path = part.path;
-  Moving<I> result;
-  LawRange<I> law = part.law;
-  if (part.speeds == Speeds::kAny && slowing_) law = slowed(law, *slowing_);
-  result.r_WP = path.r_WP;
-  result.rates = by_time(path, law.rate, law.acceleration);
-  result.wrench = inertial_wrench(bodies_, path.r_WP, result.rates);
-  if (slowing_) {
-    const I one(1.0), none(0.0);
-    result.by_law = {inertial_wrench(bodies_, path.r_WP, by_time(path, none, one)),
-                     inertial_wrench(bodies_, path.r_WP, by_time(path, one, none)), law.acceleration, sqr(law.rate)};
+bool MovingModel<I>::are_kept_over(RatesAlong<I>& along, const TimeCover& times, Limits open, std::vector<I>& sizes,
+                                   int bisections) const {
+  along.look_at_middle();
+  std::vector<I> found = sizes;
+  Halving halving;
+  if (are_kept(along, times, open, 0, halving, found)) {
+    sizes = std::move(found);
+    return true;
   }
-  if (powers_.empty()) return result;
-  Magnitudes at_speed(part.model, path, part.law);
-  std::array<bool, kCables> cables{};
-  for (const Limit& limit : powers_) cables[static_cast<std::size_t>(limit.id.cable)] = true;
-  // Slowed down everywhere, speeds have no longer these accelerations for derivatives.
-  const std::optional<Fastest> most = pace_ ? std::nullopt : fastest(part, at_speed, cables, false);
-  for (std::size_t i = 0; i < kCables; ++i) {
-    if (!cables[i]) continue;
-    result.winch_speed[i] = at_speed({RateKind::kWinchSpeed, static_cast<int>(i)});
-    if (most) result.winch_speed[i] = no_more(result.winch_speed[i], most->winch[i]);
-  }
-  return result;
-}
-
-template <class I>
-Moving<I> MovingModel<I>::at_any_time(const Part& part) const {
-  Moving<I> result = moving(part);
-  std::vector<I> sizes(limits_.size(), I(0.0));
-  (void)narrow(part, all_limits(), sizes);
-  add_margins(sizes, result);
-  return result;
+  if (bisections == 0) return false;
+  const Segment& segment = along.segment();
+  const I& range = along.range();
+  const double middle = midpoint_approx(range);
+  return std::ranges::all_of(
+      std::array{hull(I(lower_bound(range)), I(middle)), hull(I(middle), I(upper_bound(range)))}, [&](const I& half) {
+        std::optional<RatesAlong<I>> on_half = along.over_part(half);
+        return on_half && are_kept_over(*on_half, time_cover(*segment.timing, on_path(segment, half)), open, sizes,
+                                        bisections - 1);
+      });
 }
 
 template <class I>
 std::optional<Moving<I>> MovingModel<I>::at(const Model<I>& model, const Segment& segment, const I& place,
                                             Speeds speeds) const {
-  const std::optional<Part> part = part_of(model, segment, place, speeds);
-  return part ? std::optional(at_any_time(*part)) : std::nullopt;
+  if (segment.timing == nullptr) throw std::logic_error("a segment without a time law");
+  std::optional<RatesAlong<I>> along = RatesAlong<I>::over(rates_, model, segment, place);
+  if (!along) return std::nullopt;
+  const PathRates<I>& path = along->path();
+  const TimeCover times = time_cover(*segment.timing, on_path(segment, place));
+  const LawRange<I> at_full_speed = law_over(*segment.timing, times);
+  const LawRange<I> law = speeds == Speeds::kAny && slowing_ ? slowed(at_full_speed, *slowing_) : at_full_speed;
+  std::optional<Moving<I>> result(std::in_place);
+  result->r_WP = path.r_WP;
+  result->rates = by_time(path, law.rate, law.acceleration);
+  result->wrench = inertial_wrench(bodies_, path.r_WP, result->rates);
+  if (slowing_) {
+    const I one(1.0), none(0.0);
+    result->by_law = {inertial_wrench(bodies_, path.r_WP, by_time(path, none, one)),
+                      inertial_wrench(bodies_, path.r_WP, by_time(path, one, none)), law.acceleration, sqr(law.rate)};
+  }
+  result->part = {times, place, at_full_speed, speeds};
+  result->along = std::make_unique<RatesAlong<I>>(*std::move(along));
+  return result;
+}
+
+template <class I>
+void MovingModel<I>::bound_rates(Moving<I>& moving) const {
+  RatesAlong<I>& along = *moving.along;
+  const Part& part = moving.part;
+  const Corners corners = corners_of(along, part);
+  moving.margins.clear();
+  moving.margins.reserve(limits_.size());
+  for (const Limit& limit : limits_) {
+    const I size = magnitude(along, part, corners, limit.id);
+    moving.margins.push_back({limit.id, size, limit.most - size});
+  }
+  if (powers_.empty()) return;
+  // Slowed down everywhere, speeds have no longer these accelerations for derivatives.
+  const std::optional<Middle> middle = pace_ ? std::nullopt : middle_of_times(along, part);
+  if (middle) along.look_at_middle();
+  for (const Limit& limit : powers_) {
+    I& speed = moving.winch_speed[static_cast<std::size_t>(limit.id.cable)];
+    const RateId id{RateKind::kWinchSpeed, limit.id.cable};
+    speed = along.magnitude(id, part.here, part.law);
+    if (middle) speed = no_more(speed, along.speed_around(id, part.here, part.law, middle->place, middle->time));
+  }
 }
 
 template <class I>
@@ -309,25 +232,16 @@ std::optional<Moving<I>> MovingModel<I>::over(const Model<I>& model, const Segme
 }
 
 template <class I>
-void MovingModel<I>::tighten(const Model<I>& model, const Segment& segment, const I& range, Moving<I>& moving) const {
+void MovingModel<I>::tighten(Moving<I>& moving) const {
   Limits open = 0;
   for (std::size_t n = 0; n < limits_.size(); ++n) {
     if (!certainly_positive(moving.margins[n].value)) open |= Limits{1} << n;
   }
   if (open == 0) return;
   std::vector<I> sizes(limits_.size(), I(0.0));
-  Halving halving;
-  const TimeCover times = time_cover(*segment.timing, I(I(static_cast<double>(segment.index)) + range));
-  if (!are_kept({model, segment, range}, times, open, 0, halving, sizes)) return;
+  if (!are_kept_over(*moving.along, moving.part.times, open, sizes, kMostBisections)) return;
   for (std::size_t n = 0; n < limits_.size(); ++n) {
     if ((open >> n & 1U) != 0) moving.margins[n] = {limits_[n].id, sizes[n], limits_[n].most - sizes[n]};
-  }
-}
-
-template <class I>
-void MovingModel<I>::add_margins(const std::vector<I>& sizes, Moving<I>& to) const {
-  for (std::size_t n = 0; n < limits_.size(); ++n) {
-    to.margins.push_back({limits_[n].id, sizes[n], limits_[n].most - sizes[n]});
   }
 }
 

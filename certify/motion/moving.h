@@ -6,15 +6,17 @@
 // (kinematics/moving_load.h). As boxes shrink, these enclosures do, in proportion. Speeds are bounded once more, from
 // one time in the middle and the accelerations around it: a product such as that of ṡ and dL/ds can't see that one of
 // them falls where the other rises, and a move at the limit of a speed would take boxes without number.
-// Where a limit is not shown to be kept, these times are halved, and each half is looked at for itself: that takes a
-// small part of what a smaller box takes, of which all else is enclosed anew.
+// Where a limit is not shown to be kept, these times are halved, and each half is looked at for itself, and then halves
+// of the box likewise: that takes a small part of what smaller boxes take, of which all else is enclosed anew.
 // Where a move may be slowed down, ṡ is any share of σ', and s̈ what that leaves of σ'' and a change of the share.
 // docs/theory.md, "Moves in time".
 #pragma once
 
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,6 +24,7 @@
 #include "certify/arithmetic/mp_interval.h"
 #include "certify/motion/law_range.h"
 #include "certify/motion/motion_rates.h"
+#include "certify/motion/rates_along.h"
 #include "certify/motion/slowing.h"
 #include "kinematics/moving_load.h"
 #include "kinematics/time_limits.h"
@@ -52,11 +55,22 @@ template <class I>
 struct Moving {
   Vector6<I> wrench;       ///< w_in about P_m, axes of W [N, N m]
   InertiaByLaw<I> by_law;  ///< the same; only where the move may be slowed down
-  /// Where the speed is any, of the speeds that no other exceeds.
-  std::vector<RateMargin<I>> margins;  ///< of all limits that the problem states, but for those of power
-  std::array<I, kCables> winch_speed;  ///< |L̇| when the move is fastest [m/s]
   Matrix3<I> r_WP;
   Rates<I> rates;
+
+  /// After bound_rates(). Where the speed is any, of the speeds that no other exceeds.
+  std::vector<RateMargin<I>> margins;  ///< of all limits that the problem states, but for those of power
+  std::array<I, kCables> winch_speed;  ///< |L̇| when the move is fastest [m/s]; only where powers are limited
+
+  /// All times at which the move is in a part of a segment, or some of these.
+  struct Part {
+    TimeCover times;
+    I here;  ///< where the move is at these times, as far as that part is concerned
+    LawRange<I> law;
+    Speeds speeds;
+  };
+  Part part;
+  std::unique_ptr<RatesAlong<I>> along;
 };
 
 /// A problem with limits in time, ready for scalar I.
@@ -73,8 +87,10 @@ class MovingModel {
                                             Speeds speeds = Speeds::kOfLaw) const;
   /// All over a part of the segment, at any speed at which the move may be run; likewise.
   [[nodiscard]] std::optional<Moving<I>> over(const Model<I>& model, const Segment& segment, const I& range) const;
-  /// Bounds the margins of over() that are not positive once more, from parts of the times.
-  void tighten(const Model<I>& model, const Segment& segment, const I& range, Moving<I>& moving) const;
+  /// Sets `margins` and `winch_speed`.
+  void bound_rates(Moving<I>& moving) const;
+  /// After that, bounds the margins of over() that are not positive once more, from parts of the times.
+  void tighten(Moving<I>& moving) const;
 
   /// Whether a move may be slowed down at any place.
   [[nodiscard]] bool may_stop() const { return slowing_.has_value(); }
@@ -93,57 +109,42 @@ class MovingModel {
     RateId id;
     I most;
   };
-  /// All times at which the move is in a part of a segment, or some of these.
-  struct Part {
-    const Model<I>& model;
-    const Segment& segment;
-    TimeCover times;
-    I range;  ///< where the move is at these times, as far as that part is concerned
-    PathRates<I> path;
-    LawRange<I> law;
-    Speeds speeds;
-  };
-  /// No magnitude of a speed is above these while the law is run at its full speed, or slower.
-  struct Fastest {
-    std::array<I, kCables> winch;
-    I load, spin;
-  };
+  using Part = typename Moving<I>::Part;
   /// Of a move that is slowed down everywhere.
   struct Pace {
     I speed;   ///< τ'
     I change;  ///< τ'' [1/s]
   };
   using Limits = std::uint32_t;  ///< a set of limits_
-  [[nodiscard]] Limits all_limits() const { return (Limits{1} << limits_.size()) - 1; }
-
-  class Magnitudes;
 
   /// σ' and σ'' at these times, or what they are at that pace.
   [[nodiscard]] LawRange<I> law_over(const TimeLaw& law, const TimeCover& times) const;
-  [[nodiscard]] std::optional<Part> part_of(const Model<I>& model, const Segment& segment, const I& range,
-                                            Speeds speeds) const;
-  [[nodiscard]] Moving<I> at_any_time(const Part& part) const;
-  /// All but the margins.
-  [[nodiscard]] Moving<I> moving(const Part& part) const;
-  /// @param by_law  over the part @param cables, load  of which winches, and whether of the load
-  [[nodiscard]] std::optional<Fastest> fastest(const Part& part, Magnitudes& by_law,
-                                               const std::array<bool, kCables>& cables, bool load) const;
-  /// Encloses the rates of the open limits. Returns those of which that does not show that they are kept.
-  [[nodiscard]] Limits narrow(const Part& part, Limits open, std::vector<I>& sizes) const;
-  /// All of a box, at any speed.
-  struct Whole {
-    const Model<I>& model;
-    const Segment& segment;
-    I range;
+  /// The middle of a part's times, and where the move is then: nothing where that is not certain to be in the part.
+  struct Middle {
+    LawInstant<I> time;
+    I place;
   };
+  [[nodiscard]] static std::optional<Middle> middle_of_times(const RatesAlong<I>& along, const Part& part);
+  /// Where a part may be slowed down: at each time accelerations are convex in (τ'², τ''), so that none is larger than
+  /// at the law's own speed or at one of these.
+  using Corners = boost::container::static_vector<LawRange<I>, 3>;
+  [[nodiscard]] Corners corners_of(const RatesAlong<I>& along, const Part& part) const;
+  [[nodiscard]] I magnitude(RatesAlong<I>& along, const Part& part, const Corners& corners, const RateId& id) const;
+  /// Encloses the rates of the open limits. Returns those of which that does not show that they are kept.
+  [[nodiscard]] Limits narrow(RatesAlong<I>& along, const Part& part, Limits open, std::vector<I>& sizes) const;
   /// How far the times of a box were halved until the last parts kept their limits: what is likely to do next.
   struct Halving {
-    static constexpr int kMost = 6;  ///< more take as long as smaller boxes
+    static constexpr int kMost = 3;  ///< more seldom do
     int likely = 1, kept = 0;
   };
-  [[nodiscard]] bool are_kept(const Whole& whole, const TimeCover& times, Limits open, int depth, Halving& halving,
+  /// Whether limits are kept at all of these times at which the move is in along.range(). `sizes` grow by what is
+  /// found.
+  [[nodiscard]] bool are_kept(RatesAlong<I>& along, const TimeCover& times, Limits open, int depth, Halving& halving,
                               std::vector<I>& sizes) const;
-  void add_margins(const std::vector<I>& sizes, Moving<I>& to) const;
+  /// Likewise; where that fails, of both halves of the part that `along` is over, and so on. All or none are found.
+  [[nodiscard]] bool are_kept_over(RatesAlong<I>& along, const TimeCover& times, Limits open, std::vector<I>& sizes,
+                                   int bisections) const;
+  static constexpr int kMostBisections = 2;  ///< more take as long as smaller boxes
 
   MotionRates<I> rates_;
   std::vector<MovingBody<I>> bodies_;

@@ -11,6 +11,7 @@
 
 #include "certify/motion/law_range.h"
 #include "certify/motion/motion_rates.h"
+#include "certify/motion/rates_along.h"
 #include "kinematics/moving_load.h"
 #include "kinematics/path_rates.h"
 #include "kinematics/rates_sampler.h"
@@ -226,7 +227,7 @@ TYPED_TEST(InTime, LoadsAndWinchesMoveAsDifferencesSay) {
     WinchRates<I> winches;
     const bool is_sound = TypeParam::run([&] {
       const Model<I> model = make_model_without_ellipsoid<I>(space.problem);
-      const PathRates<I> path = PathRatesModel<I>(space.problem).along_curve(segment, I(s - radius, s + radius));
+      const PathRates<I> path = PathRatesModel<I, 2>(space.problem).along_curve(segment, I(s - radius, s + radius));
       const Rates<I> rates = by_time(path, I(rate), I(acceleration));
       wrench = inertial_wrench<I>({body_of<I>(cloud, model.p_PM)}, path.r_WP, rates);
       winches = winch_rates(model, path.p, path.r_WP, rates);
@@ -263,12 +264,12 @@ TYPED_TEST(InTime, MotionsThatAreImpliedMoveAsDifferencesSay) {
     const double radius = operands.coin(0.5) ? 0 : 0.004;
     const Cloud cloud = some_cloud(operands);
     const Problem& problem = implied.machine.problem;
-    std::optional<PathRates<I>> path;
+    std::optional<ThirdPathRates<I>> path;
     Vector6<I> wrench;
     WinchRates<I> winches;
     const bool is_sound = TypeParam::run([&] {
       const Model<I> model = make_model_without_ellipsoid<I>(problem);
-      path = MotionRates<I>(problem).over(model, segment, I(s - radius, s + radius));
+      if (const auto over = MotionRates<I>(problem).over(model, segment, I(s - radius, s + radius))) path = over->path;
       if (!path) return;
       const Rates<I> rates = by_time(*path, I(rate), I(change));
       wrench = inertial_wrench<I>({body_of<I>(cloud, model.p_PM)}, path->r_WP, rates);
@@ -300,6 +301,108 @@ TYPED_TEST(InTime, MotionsThatAreImpliedMoveAsDifferencesSay) {
   }
   for (const int count : enclosed) EXPECT_GT(count, kTrials / ImpliedMove::kKinds * 3 / 4);
   EXPECT_LT(widest, 1e-7);
+}
+
+/// A rate of a move at time 0, without its sign.
+BigFloat size_of(const Problem& problem, const oracle::Move& move, const RateId& id) {
+  const BigFloat now(0.0);
+  const oracle::Big3 none = {now, now, now};
+  const bool of_speed = is_speed(id.kind);
+  if (is_of_winch(id.kind)) {
+    const auto i = static_cast<std::size_t>(id.cable);
+    const auto [speed, change] =
+        move.winch(oracle::big(problem.robot.base_anchors_m[i]), oracle::big(problem.robot.platform_anchors_m[i]), now);
+    return abs(of_speed ? speed : change);
+  }
+  if (id.kind == RateKind::kLoadSpeed || id.kind == RateKind::kLoadAcceleration) {
+    const auto [velocity, acceleration] = move.rates(oracle::big(problem.load.point_m), now);
+    return oracle::distance(of_speed ? velocity : acceleration, none);
+  }
+  // ω = Σ e × ė / 2 of the three axes e of P, and its derivative Σ e × ë / 2.
+  oracle::Big3 sum = none;
+  const oracle::Big3 origin = oracle::place(move.pose(now), none);
+  const auto at_origin = move.rates(none, now);
+  for (std::size_t k = 0; k < 3; ++k) {
+    oracle::Big3 axis = none;
+    axis[k] = BigFloat(1.0);
+    const auto at_tip = move.rates(axis, now);
+    oracle::Big3 e = oracle::place(move.pose(now), axis), rate = of_speed ? at_tip.first : at_tip.second;
+    for (std::size_t j = 0; j < 3; ++j) {
+      e[j] -= origin[j];
+      rate[j] -= (of_speed ? at_origin.first : at_origin.second)[j];
+    }
+    const oracle::Big3 moment = oracle::cross(e, rate);
+    for (std::size_t j = 0; j < 3; ++j) sum[j] += moment[j] / BigFloat(2.0);
+  }
+  return oracle::distance(sum, none);
+}
+
+TYPED_TEST(InTime, RatesAlongAPartAreThoseOfEachOfItsPlaces) {
+  using I = typename TypeParam::I;
+  Operands operands(29);
+  std::vector<RateId> ids;
+  for (int cable = 0; cable < 6; ++cable) {
+    ids.push_back({RateKind::kWinchSpeed, cable});
+    ids.push_back({RateKind::kWinchAcceleration, cable});
+  }
+  for (const RateKind kind : {RateKind::kLoadSpeed, RateKind::kLoadAcceleration, RateKind::kLoadAngularSpeed,
+                              RateKind::kLoadAngularAcceleration}) {
+    ids.push_back({kind, 0});
+  }
+  constexpr int kTrials = 100, kKinds = ImpliedMove::kKinds + 1;
+  std::array<int, kKinds> enclosed{};
+  std::array<double, 2> widths{};  // without the middle, and with it
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const auto kind = static_cast<std::size_t>(trial % kKinds);
+    const bool is_implied = kind < ImpliedMove::kKinds;
+    std::optional<ImpliedMove> implied;
+    std::optional<MovingMachine> machine;
+    Path path;
+    if (is_implied) {
+      implied.emplace(operands, static_cast<ImpliedMove::Kind>(kind), 0.2);
+      path = implied->path;
+    } else {
+      machine.emplace(operands);
+      path = some_move(operands, 0.2);
+    }
+    const Problem& problem = is_implied ? implied->machine.problem : machine->problem;
+    const auto k = static_cast<std::size_t>(operands.pick(static_cast<int>(path.segments())));
+    const Segment segment = path.segment(k);
+    const double radius = operands.coin(0.5) ? 0.002 : 0.02;
+    const double s = operands.uniform(0.03, 0.97), rate = operands.uniform(0, 2), change = operands.uniform(-2, 2);
+    // A piece of the part, and a place in it.
+    const double from = s + radius * operands.uniform(-1, 1), size = radius * operands.uniform(0, 0.2);
+    const double to = std::min(from + size, s + radius), place = std::min(to, from + size * operands.uniform(0, 1));
+    std::array<std::vector<I>, 2> said;
+    const bool is_sound = TypeParam::run([&] {
+      const Model<I> model = make_model_without_ellipsoid<I>(problem);
+      const MotionRates<I> rates(problem);
+      auto along = RatesAlong<I>::over(rates, model, segment, I(s - radius, s + radius));
+      if (!along) return;
+      for (std::vector<I>& sizes : said) {
+        for (const RateId& id : ids) sizes.push_back(along->magnitude(id, I(from, to), {I(rate), I(change)}));
+        along->look_at_middle();
+      }
+    });
+    if (!is_sound || said[1].empty()) continue;
+    ++enclosed[kind];
+
+    const PrecisionScope precision(oracle::kMovingBits);
+    const oracle::Move move([&](const BigFloat& tau) {
+      const BigFloat at = BigFloat(static_cast<double>(k)) + BigFloat(place) +
+                          tau * (BigFloat(rate) + BigFloat(change) * tau / BigFloat(2.0));
+      return is_implied ? implied->pose(at) : pose_on_path(path, at);
+    });
+    for (std::size_t n = 0; n < ids.size(); ++n) {
+      const BigFloat truth = size_of(problem, move, ids[n]);
+      for (std::size_t with = 0; with < 2; ++with) {
+        EXPECT_TRUE(holds(said[with][n], truth, oracle::big("1e-30"))) << name(ids[n].kind) << " of kind " << kind;
+        widths[with] += spread(said[with][n]);
+      }
+    }
+  }
+  for (const int count : enclosed) EXPECT_GT(count, kTrials / kKinds * 3 / 4);
+  EXPECT_LT(widths[1], 0.25 * widths[0]);
 }
 
 TYPED_TEST(InTime, AGeodesicThatMayBeHalfATurnHasNoRates) {

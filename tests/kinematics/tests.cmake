@@ -27,6 +27,6 @@ taut_add_test(kinematics move_tables LABELS unit LIBS taut::case taut::path_io f
 taut_add_test(kinematics waypoint_maker LABELS unit LIBS taut::case taut::path_io TOGETHER)
 taut_add_test(kinematics segment LABELS unit LIBS taut::kinematics TOGETHER)
 taut_add_test(kinematics margin_budget LABELS unit LIBS taut::case taut::kinematics fmt::fmt TOGETHER)
-foreach(header model statics jet navigation_manifold)
+foreach(header model statics jet taylor navigation_manifold)
   taut_add_test(kinematics ${header} LABELS unit laws LIBS taut::case taut::certify OPTIMIZED)
 endforeach()

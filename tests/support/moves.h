@@ -94,21 +94,23 @@ inline Path some_move(Operands& operands, double shortest_s) {
   return path;
 }
 
+/// Where the machine is at a place that counts segments.
+inline oracle::Big6 pose_on_path(const Path& path, const BigFloat& s) {
+  const double segment = std::clamp(std::floor(s.to_double(MPFR_RNDN)), 0.0, static_cast<double>(path.segments() - 1));
+  const BigFloat x = s - BigFloat(segment);
+  const Segment on = path.segment(static_cast<std::size_t>(segment));
+  oracle::Big6 pose;
+  for (std::size_t j = 0; j < 6; ++j) {
+    const auto q = [&](std::size_t i) { return BigFloat(on.control[i]->x[j]); };
+    pose[j] = on.law == Interpolation::kStraight ? (BigFloat(1.0) - x) * q(0) + x * q(1)
+                                                 : oracle::spline({q(0), q(1), q(2), q(3)}, x);
+  }
+  return pose;
+}
+
 inline oracle::Move oracle_of(const Path& path) {
-  return oracle::Move([&path](const BigFloat& t) {
-    const BigFloat s = oracle::place_on_path(*path.timing, t);
-    const double segment =
-        std::clamp(std::floor(s.to_double(MPFR_RNDN)), 0.0, static_cast<double>(path.segments() - 1));
-    const BigFloat x = s - BigFloat(segment);
-    const Segment on = path.segment(static_cast<std::size_t>(segment));
-    oracle::Big6 pose;
-    for (std::size_t j = 0; j < 6; ++j) {
-      const auto q = [&](std::size_t i) { return BigFloat(on.control[i]->x[j]); };
-      pose[j] = on.law == Interpolation::kStraight ? (BigFloat(1.0) - x) * q(0) + x * q(1)
-                                                   : oracle::spline({q(0), q(1), q(2), q(3)}, x);
-    }
-    return pose;
-  });
+  return oracle::Move(
+      [&path](const BigFloat& t) { return pose_on_path(path, oracle::place_on_path(*path.timing, t)); });
 }
 
 /// A time at which the move is at s.

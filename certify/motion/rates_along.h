@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How fast winches and load go along a part of a segment, whatever the law in time.
+//
+// A length L_i, the place of the load point and the turning of the platform have by s a rate f, and f' = g, g' = h. By
+// time that is f ṡ, which changes at f s̈ + g ṡ². All are enclosed over the part, and f and g once more at its middle m:
+// by Taylor's theorem, for each component,
+//   f(s) is in f(m) + (s − m) (g(m) + (s − m)/2 h),   g(s) in g(m) + (s − m) h,
+// so that both are known more sharply on any piece of the part than over all of it. What a move asks for at parts of the
+// times at which it is there needs no new enclosure of poses.
+// docs/theory.md, "Parts of a box".
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "certify/arithmetic/neumann.h"
+#include "certify/motion/law_range.h"
+#include "certify/motion/motion_rates.h"
+#include "kinematics/moving_load.h"
+#include "kinematics/time_limits.h"
+
+namespace taut {
+
+template <class I>
+class RatesAlong {
+ public:
+  /// Nothing where the motion is not proved to be known. All arguments but `range` have to outlive this.
+  [[nodiscard]] static std::optional<RatesAlong> over(const MotionRates<I>& rates, const Model<I>& model,
+                                                      const Segment& segment, const I& range) {
+    std::optional<Over> path = rates.over(model, segment, range);
+    if (!path) return std::nullopt;
+    return RatesAlong(rates, model, segment, *std::move(path));
+  }
+
+  [[nodiscard]] std::optional<RatesAlong> over_part(const I& part) const {
+    return over(*rates_, *model_, *segment_, part);
+  }
+
+  [[nodiscard]] const Segment& segment() const { return *segment_; }
+  [[nodiscard]] const I& range() const { return over_.range; }
+  [[nodiscard]] const PathRates<I>& path() const { return over_.path; }
+
+  /// From here on f and g are enclosed by those of the middle, too.
+  void look_at_middle() {
+    if (looked_at_middle_) return;
+    looked_at_middle_ = true;
+    if (lower_bound(over_.range) == upper_bound(over_.range)) return;  // it is all there is
+    middle_ = rates_->at_middle(*model_, *segment_, over_);
+  }
+
+  /// |f ṡ| or |f s̈ + g ṡ²|, of a place in `here`, which is in the range, and under a law there. Not of a power.
+  [[nodiscard]] I magnitude(const RateId& id, const I& here, const LawRange<I>& law) {
+    const Thing thing = thing_of(id);
+    const Derivatives along = on(thing, here);
+    return size(thing, is_speed(id.kind) ? velocity(thing, along, law) : acceleration(thing, along, law));
+  }
+
+  /// The magnitude of a speed at all times of a part, between any of which and m it is in `here`, as at m.
+  [[nodiscard]] I speed_around(const RateId& id, const I& here, const LawRange<I>& law, const I& place,
+                               const LawInstant<I>& m) {
+    const Thing thing = thing_of(id);
+    const Derivatives along = on(thing, here);
+    const Vector3<I> v0 = velocity(thing, on(thing, place), {m.rate, I(0.0)}), a = acceleration(thing, along, law);
+    if (is_winch(thing)) return absolute(v0(0) + plus_minus(m.reach) * a(0));
+    // Its square changes at the rate 2 v·a.
+    const I square = dot(v0, v0) + plus_minus(m.reach) * (I(2.0) * dot(velocity(thing, along, law), a));
+    if (!(square.upper() >= 0)) return square;  // no number, and no bound
+    return sqrt(hull(I(0.0), I(square.upper())));
+  }
+
+ private:
+  using Thing = std::size_t;  ///< a winch, or one of these
+  static constexpr Thing kLoadPoint = kCables, kTurning = kCables + 1, kThings = kCables + 2;
+  using Over = typename MotionRates<I>::Over;
+  /// Of a winch, the first number of each.
+  struct Derivatives {
+    Vector3<I> f, g;
+  };
+  struct AroundMiddle {
+    Derivatives at_mid;
+    Vector3<I> h;
+  };
+
+  RatesAlong(const MotionRates<I>& rates, const Model<I>& model, const Segment& segment, Over over)
+      : rates_(&rates), model_(&model), segment_(&segment), over_(std::move(over)) {}
+
+  [[nodiscard]] static bool is_winch(Thing thing) { return thing < kCables; }
+  [[nodiscard]] static Thing thing_of(const RateId& id) {
+    switch (id.kind) {
+      case RateKind::kWinchSpeed:
+      case RateKind::kWinchAcceleration:
+      case RateKind::kWinchPower: return static_cast<Thing>(id.cable);
+      case RateKind::kLoadSpeed:
+      case RateKind::kLoadAcceleration: return kLoadPoint;
+      case RateKind::kLoadAngularSpeed:
+      case RateKind::kLoadAngularAcceleration: break;
+    }
+    return kTurning;
+  }
+
+  [[nodiscard]] static I plus_minus(const I& x) { return hull(-x, x); }
+  [[nodiscard]] static I dot(const Vector3<I>& a, const Vector3<I>& b) {
+    return a(0) * b(0) + a(1) * b(1) + a(2) * b(2);
+  }
+  [[nodiscard]] static I size(Thing thing, const Vector3<I>& v) {
+    return is_winch(thing) ? absolute(v(0)) : euclidean_norm(v(0), v(1), v(2));
+  }
+
+  [[nodiscard]] Derivatives derivatives(Thing thing, const PathRates<I>& path) const {
+    if (thing == kTurning) return {path.w, path.w1};
+    const Rates<I> by_s{path.p1, path.p2, path.w, path.w1};
+    if (is_winch(thing)) {
+      const WinchRate<I> winch = winch_rate(*model_, thing, path.p, path.r_WP, by_s);
+      Derivatives result;
+      result.f(0) = winch.speed;
+      result.g(0) = winch.acceleration;
+      return result;
+    }
+    const Vector3<I> arm = turned(path.r_WP, model_->p_PM);
+    return {velocity_at(by_s, arm), acceleration_at(by_s, arm)};
+  }
+  [[nodiscard]] const Derivatives& derivatives(Thing thing) {
+    std::optional<Derivatives>& all = all_[thing];
+    if (!all) all = derivatives(thing, over_.path);
+    return *all;
+  }
+
+  /// What is known beside derivatives().
+  [[nodiscard]] const AroundMiddle& around_middle(Thing thing) {
+    std::optional<AroundMiddle>& result = around_[thing];
+    if (result) return *result;
+    result.emplace(AroundMiddle{derivatives(thing, *middle_), over_.path.w2});
+    if (thing == kLoadPoint) result->h = third_derivative_at(over_.path, turned(over_.path.r_WP, model_->p_PM));
+    if (!is_winch(thing)) return *result;
+    const Derivatives& all = derivatives(thing);
+    result->h(0) = third_derivative_of_length(*model_, thing, over_.path, WinchRate<I>{all.f(0), all.g(0)});
+    return *result;
+  }
+  /// f and g at each place of `here`.
+  [[nodiscard]] Derivatives on(Thing thing, const I& here) {
+    Derivatives result = derivatives(thing);
+    if (!middle_) return result;
+    const auto& [at_mid, h] = around_middle(thing);
+    const I off = here - over_.mid, half = I(0.5) * off;
+    for (int k = 0; k < (is_winch(thing) ? 1 : 3); ++k) {
+      result.f(k) = intersect(result.f(k), at_mid.f(k) + off * (at_mid.g(k) + half * h(k)));
+      result.g(k) = intersect(result.g(k), at_mid.g(k) + off * h(k));
+    }
+    return result;
+  }
+  [[nodiscard]] static Vector3<I> velocity(Thing thing, const Derivatives& along, const LawRange<I>& law) {
+    Vector3<I> result;
+    for (int k = 0; k < (is_winch(thing) ? 1 : 3); ++k) result(k) = along.f(k) * law.rate;
+    return result;
+  }
+  [[nodiscard]] static Vector3<I> acceleration(Thing thing, const Derivatives& along, const LawRange<I>& law) {
+    const I square = sqr(law.rate);
+    Vector3<I> result;
+    for (int k = 0; k < (is_winch(thing) ? 1 : 3); ++k) {
+      result(k) = along.f(k) * law.acceleration + along.g(k) * square;
+    }
+    return result;
+  }
+
+  const MotionRates<I>* rates_;
+  const Model<I>* model_;
+  const Segment* segment_;
+  Over over_;
+  bool looked_at_middle_ = false;
+  std::optional<PathRates<I>> middle_;
+  std::array<std::optional<Derivatives>, kThings> all_;
+  std::array<std::optional<AroundMiddle>, kThings> around_;
+};
+
+}  // namespace taut
