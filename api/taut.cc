@@ -282,6 +282,7 @@ Witness outer(const PathWitness& witness, const Problem& problem) {
   }
   result.value_lower = below(witness.value_lower);
   result.value_upper = above(witness.value_upper);
+  result.deviates = witness.deviation != nullptr;
   if (const auto& slowing = witness.slowing) {
     result.slowing = {ScalarTraits<double>::from_decimal(slowing->speed), slowing->change};
   }
@@ -295,7 +296,6 @@ Witness outer(const PathWitness& witness, const Problem& problem) {
   result.kind = name(witness.margin.kind);
   result.cable = witness.margin.cable + 1;
   result.limit = ScalarTraits<double>::from_decimal(witness.limit);
-  result.deviates = witness.deviation != nullptr;
   return result;
 }
 
@@ -1068,7 +1068,9 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
     require_one_path(the_case, "audit");
     AuditRequest request = audit_request(the_case.content(), path, options.interpolation);
     request.timed |= options.timed;
-    if (options.rounding) request.rounding = table_rounding(options.rounding->position_m, options.rounding->angle_rad);
+    if (const auto& rounding = options.rounding) {
+      request.rounding = table_rounding(rounding->position_m, rounding->angle_rad, rounding->length_m);
+    }
     if (request.timed) {
       require_seconds(options.max_check_seconds, "max_check_seconds");
       relay.report({"proving the move", 0, 0});

@@ -274,30 +274,36 @@ bool PathSource::next(SourceWaypoint& result) {
     return true;
   }
   result.waypoint = maker_->next(row, file_->start());
-  if (k == 0) require_start(row.line);
+  if (k == 0) require_start(case_problem_, *header_, *maker_, path_, row.line);
   result.line = row.line;
   if (has_times()) result.time_s = row.time_s;
   return true;
 }
 
-std::string PathSource::swapped_lengths(double most_m) const {
-  const auto swapped = maker_->exchanged_lengths(most_m);
+namespace {
+
+/// " (With l2 and l3 exchanged they would agree …)", or nothing.
+std::string swapped_lengths(const PathHeader& header, const WaypointMaker& poses, double most_m) {
+  const auto swapped = poses.exchanged_lengths(most_m);
   if (!swapped) return "";
   return fmt::format(" (With {} and {} exchanged they would agree: are these columns swapped?)",
-                     header_->coordinates[swapped->first].name, header_->coordinates[swapped->second].name);
+                     header.coordinates[swapped->first].name, header.coordinates[swapped->second].name);
 }
 
-void PathSource::require_start(std::size_t line) const {
+}  // namespace
+
+void require_start(const Problem& problem, const PathHeader& header, const WaypointMaker& poses,
+                   const std::string& file, std::size_t line) {
   constexpr double kMostOff = 0.02;  // of the platform's size; beyond, it may be the start of another assembly
-  const double size = make_model<double>(case_problem_).characteristic_length;
-  const double off = maker_->start_error_m();
+  const double size = make_model<double>(problem).characteristic_length;
+  const double off = poses.start_error_m();
   if (off <= kMostOff * size) return;
   throw InputError(
       fmt::format(
           "{}:{}: got a start pose whose cables' lengths differ by up to {:.4g} m from those of this row{}, expected "
           "the pose that has them, to within {:.4g} m",
-          path_, line, off, swapped_lengths(kMostOff * size), kMostOff * size),
-      {path_, line});
+          file, line, off, swapped_lengths(header, poses, kMostOff * size), kMostOff * size),
+      {file, line});
 }
 
 std::string PathSource::description() const {
@@ -318,7 +324,7 @@ std::string PathSource::remarks() const {
     text += fmt::format(
         "The start pose has cable lengths up to {:.4g} m from those of the first row; the pose next to it was "
         "taken.{}\n",
-        maker_->start_error_m(), swapped_lengths(maker_->start_error_m() / 10));
+        maker_->start_error_m(), swapped_lengths(*header_, *maker_, maker_->start_error_m() / 10));
   }
   if (maker_ && maker_->lost_line()) {
     text += fmt::format(

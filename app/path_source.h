@@ -83,11 +83,6 @@ class PathSource {
   [[nodiscard]] PathFile open_file() const;
   void open();
   void require_unchanged();
-  /// @throws InputError where the start pose is plainly not one with the first row's lengths.
-  void require_start(std::size_t line) const;
-  /// " (With l2 and l5 exchanged they would agree: …)" where the start pose then has the first row's lengths to within
-  /// `most_m`; else empty.
-  [[nodiscard]] std::string swapped_lengths(double most_m) const;
   void read_certificate_path(std::optional<Interpolation> law);
 
   PathInput input_;
@@ -109,5 +104,10 @@ class PathSource {
   std::optional<PathHeader> header_;
   std::size_t next_ = 0;
 };
+
+/// Throws an InputError that names `file` where the pose that rows of cable lengths start from has other lengths than
+/// the first row, in `line`.
+void require_start(const Problem& problem, const PathHeader& header, const WaypointMaker& poses,
+                   const std::string& file, std::size_t line);
 
 }  // namespace taut

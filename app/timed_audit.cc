@@ -24,6 +24,7 @@
 #include "kinematics/pose_conversion.h"
 #include "path_io/path_file.h"
 #include "path_io/path_summary.h"
+#include "path_io/waypoint_maker.h"
 #include "planner/move_fit.h"
 #include "reports/summary/angles.h"
 #include "reports/summary/display_units.h"
@@ -57,7 +58,7 @@ std::array<double, 3> roll_pitch_yaw(const Eigen::Quaterniond& q,
 class TableReader {
  public:
   TableReader(const Problem& problem, const PathInput& input, const TableRounding& rounding)
-      : problem_(problem), name_(input.name), bytes_(bytes_of(input)), rounding_(rounding) {
+      : with_query_(problem), problem_(problem), name_(input.name), bytes_(bytes_of(input)), rounding_(rounding) {
     problem_.query.clear();
   }
 
@@ -91,13 +92,16 @@ class TableReader {
     header_ = file.header();
     if (header_.format == PathFormat::kTautControlPoints) {
       fail(
-          "got a spline's control points, which have no times, expected the certificate of a move or a table of poses "
-          "with times");
+          "got a spline's control points, which have no times, expected the certificate of a move or a table with "
+          "times");
     }
-    if (header_.form == PathForm::kCableLengths) {
-      fail(
-          "got cable lengths, expected poses (px, py, pz and angles or a quaternion, or the case's parameters): a move "
-          "is fitted to poses only");
+    const bool has_lengths = header_.form == PathForm::kCableLengths;
+    if (has_lengths != rounding_.is_of_lengths()) {
+      fail(has_lengths
+               ? "got cable lengths and a rounding of poses, expected by how much a length may be off, such as "
+                 "0.1mm, or audit.rounding.length in the case"
+               : "got poses and a rounding of cable lengths, expected by how much the platform may be displaced "
+                 "and turned, such as 0.1mm,0.01deg, or audit.rounding.position and angle in the case");
     }
     if (!header_.time) {
       fail("got no column t, expected one with the time of each row, such as t[s]: the audit is of a move in time");
@@ -108,10 +112,14 @@ class TableReader {
           "follow, expected poses (px, py, pz and angles or a quaternion)");
     }
     PathSummary summary(problem_, header_);
+    std::optional<WaypointMaker> poses;
+    if (has_lengths) poses.emplace(with_query_, header_, Interpolation::kCableLengths, name_);
     for (PathRow row; file.next(row);) {
       if (rows_.empty()) column_hint_ = column_hint(PoseSampler(problem_), header_, row);
       summary.add(row);
       rows_.push_back(row);
+      if (header_.form == PathForm::kQuaternion) poses_.push_back(row.x);
+      if (poses) add_pose(*poses, row, file.start());
     }
     summary_ = summary.text();
     if (rows_.size() < kLeastFittedRows) {
@@ -120,10 +128,23 @@ class TableReader {
     }
   }
 
-  /// The space of the fit: the rows' own parameters or angles; for quaternions three angles that are clear all along.
+  /// Where the machine has the lengths of a row, in floating point.
+  void add_pose(WaypointMaker& poses, const PathRow& row, const std::vector<double>& start) {
+    const Waypoint& waypoint = poses.next(row, start);
+    if (rows_.size() == 1) require_start(with_query_, header_, poses, name_, row.line);
+    if (poses.lost_line()) {
+      fail(row.line,
+           "got cable lengths for which no pose was found that follows from that of the row before, expected a motion "
+           "without jumps, clear of singular poses");
+    }
+    poses_.emplace_back(waypoint.x.begin(), waypoint.x.begin() + kQuaternionNames.size());
+  }
+
+  /// The space of the fit: the rows' own parameters or angles; for quaternions and lengths three angles that are clear
+  /// all along.
   void choose_space() {
     if (header_.form == PathForm::kAngles) problem_.space = coordinate_space(header_.angles);
-    if (header_.form != PathForm::kQuaternion) {
+    if (poses_.empty()) {
       for (const PathRow& row : rows_) {
         std::vector<double>& x = parameters_.emplace_back(row.x);
         for (std::size_t j = 0; j < x.size(); ++j) x[j] += kPi * row.half_turns[j];
@@ -134,16 +155,15 @@ class TableReader {
     if (is_clear_in(AngleKind::kRollPitchYaw, kClear)) return;
     if (is_clear_in(AngleKind::kTiltAndTorsion, kClear)) return;
     fail(
-        "got quaternions that are neither clear of a pitch of 90 degrees nor of a tilt of 0 or 180 degrees, expected "
-        "columns of the case's own parameters or angles");
+        "got poses that are neither clear of a pitch of 90 degrees nor of a tilt of 0 or 180 degrees, expected columns "
+        "of the case's own parameters or angles");
   }
 
   [[nodiscard]] bool is_clear_in(AngleKind kind, double clear) {
     parameters_.clear();
     std::optional<std::array<double, 3>> rpy;
     std::optional<TiltAndTorsion> tilted;
-    for (const PathRow& row : rows_) {
-      const std::vector<double>& x = row.x;
+    for (const std::vector<double>& x : poses_) {
       const Eigen::Quaterniond q = Eigen::Quaterniond(x[6], x[3], x[4], x[5]).normalized();
       std::array<double, 3> angles{};
       bool is_clear = false;
@@ -182,7 +202,7 @@ class TableReader {
     if (!(times_s_.back() >= kLeast_s && times_s_.back() <= kMost_s)) {
       fail(fmt::format("got rows over {:.3g} s, expected a move of {} s to {} s", times_s_.back(), kLeast_s, kMost_s));
     }
-    const RowRounding rounding = {rounding_.position_m, rounding_.angle_rad};
+    const RowRounding rounding = {rounding_.position_m, rounding_.angle_rad, rounding_.length_m};
     MoveFit fit = fit_move(problem_, rows, since_begin(rows_.back()), rounding);
     if (fit.worst.share <= 1) return fit;
     if (const auto end = moving_end(problem_, rows, rounding)) {
@@ -193,25 +213,34 @@ class TableReader {
                       end->is_last ? "still goes" : "goes", end->speed_m_s, end->angular_speed_rad_s * 180 / kPi,
                       end->is_last ? "last" : "first", end->is_last ? "ends" : "begins"));
     }
-    complain_of_row(fit.worst.row, fit.worst.position_m, fit.worst.angle_rad, fit.path.segments());
+    const RowOffset& worst = fit.worst;
+    complain_of_row(worst.row, {worst.position_m, worst.angle_rad, worst.length_m}, fit.path.segments());
   }
 
-  [[noreturn]] void complain_of_row(std::size_t row, double position_m, double angle_rad, std::size_t pieces) const {
+  [[noreturn]] void complain_of_row(std::size_t row, const RowDistance& off, std::size_t pieces) const {
     constexpr double kMore = 1.2;
-    const bool would_do = kMore * position_m <= kMostRounding_m && kMore * angle_rad <= kMostRounding_rad;
+    const bool would_do = kMore * off.position_m <= kMostRounding_m && kMore * off.angle_rad <= kMostRounding_rad &&
+                          kMore * off.length_m <= kMostRounding_m;
+    const auto enough = [&](double by, double stated, const std::string& text, const auto& above) {
+      return by > stated ? above(kMore * by) : text;
+    };
+    const std::string rounding =
+        rounding_.is_of_lengths()
+            ? enough(off.length_m, rounding_.length_m, rounding_.length, millimetres_above)
+            : enough(off.position_m, rounding_.position_m, rounding_.position, millimetres_above) + "," +
+                  enough(off.angle_rad, rounding_.angle_rad, rounding_.angle, degrees_above);
     const std::string advice =
-        fmt::format("The rounding that would do for this row: {},{}; or is the row, or one next to it, wrong?",
-                    position_m > rounding_.position_m ? millimetres_above(kMore * position_m) : rounding_.position,
-                    angle_rad > rounding_.angle_rad ? degrees_above(kMore * angle_rad) : rounding_.angle);
-    fail(
-        rows_[row].line,
-        fmt::format("got a row that is {} and {} off the nearest smooth move (a spline in {}, no more than one for "
-                    "two rows), expected one within the stated rounding of {} and {}. {}",
-                    millimetres_above(position_m), degrees_above(angle_rad), plural(pieces, "piece"),
-                    rounding_.position, rounding_.angle,
-                    would_do ? advice
-                             : "No rounding will do: is the row, or one next to it, wrong, or have rows been left out, "
-                               "such as those of a rest?"));
+        fmt::format("The rounding that would do for this row: {}; or is the row, or one next to it, wrong?", rounding);
+    fail(rows_[row].line,
+         fmt::format(
+             "got a row that is {} off the nearest smooth move (a spline in {}, no more than one for two rows), "
+             "expected one within the stated rounding of {}. {}",
+             rounding_.is_of_lengths() ? millimetres_above(off.length_m) + " in a cable's length"
+                                       : millimetres_above(off.position_m) + " and " + degrees_above(off.angle_rad),
+             plural(pieces, "piece"), rounding_.text(),
+             would_do ? advice
+                      : "No rounding will do: is the row, or one next to it, wrong, or have rows been left out, "
+                        "such as those of a rest?"));
   }
 
   /// Proves how far each row is from the move.
@@ -228,28 +257,36 @@ class TableReader {
     for (const PathRow& row : rows_) {
       const std::size_t i = table.lines.size();
       table.lines.push_back(row.line);
-      const auto off = distances.at(since_begin(row), {header_.form == PathForm::kQuaternion, row.x, row.half_turns});
-      if (!off) fail(row.line, "got a pose beyond what can be enclosed, expected numbers of a usual size");
-      if (!(off->position_m <= rounding_.position_m && off->angle_rad <= rounding_.angle_rad)) {
-        complain_of_row(i, off->position_m, off->angle_rad, fit.path.segments());
-      }
-      if (i == 0 || off->position_m > table.position_m) {
-        table.position_m = off->position_m;
-        table.position_line = row.line;
-      }
-      if (i == 0 || off->angle_rad > table.angle_rad) {
-        table.angle_rad = off->angle_rad;
-        table.angle_line = row.line;
-      }
+      const auto off = distances.at(since_begin(row), {row_form(), row.x, row.half_turns});
+      if (!off) fail(row.line, "got a row beyond what can be enclosed, expected numbers of a usual size");
+      const bool is_near = off->position_m <= rounding_.position_m && off->angle_rad <= rounding_.angle_rad &&
+                           off->length_m <= rounding_.length_m;
+      if (!is_near) complain_of_row(i, *off, fit.path.segments());
+      const auto add = [&](FittedTable::Farthest& farthest, double by) {
+        if (i == 0 || by > farthest.by) farthest = {by, row.line};
+      };
+      add(table.position_m, off->position_m);
+      add(table.angle_rad, off->angle_rad);
+      add(table.length_m, off->length_m);
     }
     return table;
   }
 
+  [[nodiscard]] RowPose::Form row_form() const {
+    switch (header_.form) {
+      case PathForm::kQuaternion: return RowPose::Form::kQuaternion;
+      case PathForm::kCableLengths: return RowPose::Form::kLengths;
+      default: return RowPose::Form::kParameters;
+    }
+  }
+
+  const Problem& with_query_;
   Problem problem_;
   std::string name_, bytes_;
   TableRounding rounding_;
   PathHeader header_;
   std::vector<PathRow> rows_;
+  std::vector<std::vector<double>> poses_;       ///< px … qw of the rows, where they are quaternions or lengths
   std::vector<std::vector<double>> parameters_;  ///< of the rows in the space of the fit
   std::vector<double> times_s_;
   std::string summary_, column_hint_, angles_;
@@ -277,8 +314,8 @@ MoveSource read_move(const Problem& problem, const PathInput& input, const std::
       throw InputError(
           input.name +
               ": got a table and no rounding, expected how far its rows may be from the move that is fitted "
-              "to them (--rounding 0.1mm,0.01deg, or audit.rounding in the case): accelerations do not "
-              "follow from digits",
+              "to them (--rounding 0.1mm,0.01deg, of cable lengths 0.1mm, or audit.rounding in the case): "
+              "accelerations do not follow from digits",
           {input.name});
     }
     return TableReader(problem, input, *rounding).read();
@@ -294,23 +331,45 @@ MoveSource read_move(const Problem& problem, const PathInput& input, const std::
 std::string row_sentence(const FittedTable& table) {
   const std::string zero =
       table.begin_s.sign() == 0 ? "" : fmt::format(" The move's time 0 is {} s in the table.", table.begin_s.text());
+  const std::string rows = plural(table.lines.size(), "row");
+  const std::string within =
+      table.rounding.is_of_lengths()
+          ? fmt::format(
+                "The cable lengths of all {} lie within {} of those of this move at their times (at most {}, "
+                "line {}).",
+                rows, table.rounding.length, millimetres_above(table.length_m.by), table.length_m.line)
+          : fmt::format("All {} lie within {} of this move at their times (at most {}, line {}, and {}, line {}).",
+                        rows, table.rounding.text(), millimetres_above(table.position_m.by), table.position_m.line,
+                        degrees_above(table.angle_rad.by), table.angle_rad.line);
   return fmt::format(
-      "All {} lie within {} and {} of this move at their times (at most {}, line {}, and {}, line {}).{} The move is "
-      "what is audited: neither the rows' last digits nor how a drive joins the rows are part of it.",
-      plural(table.lines.size(), "row"), table.rounding.position, table.rounding.angle,
-      millimetres_above(table.position_m), table.position_line, degrees_above(table.angle_rad), table.angle_line, zero);
+      "{}{} The move is what is audited: neither the rows' last digits nor how a drive joins the rows are part of it.",
+      within, zero);
 }
 
+namespace {
+
+nlohmann::json rounding_json(const TableRounding& rounding) {
+  if (rounding.is_of_lengths()) return {{"length", rounding.length}};
+  return {{"position", rounding.position}, {"angle", rounding.angle}};
+}
+
+}  // namespace
+
 nlohmann::json to_json(const FittedTable& table) {
-  return {{"rows", table.lines.size()},
-          {"lines", {table.lines.front(), table.lines.back()}},
-          {"begin_s", table.begin_s.text()},
-          {"duration_off_s", table.duration_off_s},
-          {"rounding", {{"position", table.rounding.position}, {"angle", table.rounding.angle}}},
-          {"position_m", table.position_m},
-          {"position_line", table.position_line},
-          {"angle_rad", table.angle_rad},
-          {"angle_line", table.angle_line}};
+  nlohmann::json json = {{"rows", table.lines.size()},
+                         {"lines", {table.lines.front(), table.lines.back()}},
+                         {"begin_s", table.begin_s.text()},
+                         {"duration_off_s", table.duration_off_s},
+                         {"rounding", rounding_json(table.rounding)}};
+  if (table.rounding.is_of_lengths()) {
+    json.update({{"length_m", table.length_m.by}, {"length_line", table.length_m.line}});
+  } else {
+    json.update({{"position_m", table.position_m.by},
+                 {"position_line", table.position_m.line},
+                 {"angle_rad", table.angle_rad.by},
+                 {"angle_line", table.angle_rad.line}});
+  }
+  return json;
 }
 
 void require_timed(const AuditRequest& request, const Case& the_case, const std::string& option) {
@@ -336,10 +395,9 @@ TimedAudit audit_move(const MoveSource& source, const Case& the_case, const Time
   certificate.illustration = {{"kind", "audit"}};
   add_stated(certificate.illustration, the_case, decoration);
   if (source.table) {
-    const TableRounding& rounding = source.table->rounding;
     certificate.illustration["table"] = {{"rows", source.table->lines.size()},
                                          {"begin_s", source.table->begin_s.text()},
-                                         {"rounding", {{"position", rounding.position}, {"angle", rounding.angle}}}};
+                                         {"rounding", rounding_json(source.table->rounding)}};
     certificate.illustration["lines"] = knot_lines(*source.table, *source.path.timing).to_json();
   }
   if (certificate.witness) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Audits a move in time that something else made: a certificate's path with its law, or a table of poses with times.
+// Audits a move in time that something else made: a certificate's path with its law, or a table with times.
 //
 // A table's digits are noise to accelerations. So the move that is audited is one that is fitted to the table
 // (planner/move_fit.h), and it is proved that each row lies within a stated rounding of it at the row's time. The
@@ -26,10 +26,14 @@ struct FittedTable {
   std::vector<double> times_s;     ///< since the first row, rounded
   Decimal begin_s;                 ///< the first row's time, where the move's time is 0
   double duration_off_s = 0;       ///< what rounding of the law's step changes of the time from first to last row
-  /// The greatest proved bounds of a row's distance from the move, and in which lines. Not above the rounding.
-  double position_m = 0, angle_rad = 0;
-  std::size_t position_line = 0, angle_line = 0;
-  std::string angles;  ///< "roll, pitch and yaw": where these were made of quaternions; else empty
+  /// The greatest proved bound of a row's distance from the move, and in which line. Not above the rounding.
+  struct Farthest {
+    double by = 0;
+    std::size_t line = 0;
+  };
+  Farthest position_m, angle_rad;  ///< of poses
+  Farthest length_m;               ///< of cable lengths
+  std::string angles;  ///< "roll, pitch and yaw": where these were made of quaternions or lengths; else empty
 
   /// The lines of the rows next to a time of the move; one number twice where they are one.
   [[nodiscard]] std::pair<std::size_t, std::size_t> lines_at(double time_s) const;

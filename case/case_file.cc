@@ -496,7 +496,7 @@ void read_expectation(const Field& field, const Units& units, Case& result) {
 }
 
 TableRounding read_rounding(const Field& field, const Units& units) {
-  const Map map = field.map({"position", "angle"});
+  const Map map = field.map({"position", "angle", "length"});
   const auto read = [&](const char* key, Dimension dimension) {
     const Field entry = map.at(key);
     const std::string expected = rounding_expected(dimension);
@@ -504,8 +504,17 @@ TableRounding read_rounding(const Field& field, const Units& units) {
     if (!size) entry.fail(expected);
     return *size;
   };
+  if (const auto length = map.find("length")) {
+    for (const char* key : {"position", "angle"}) {
+      if (const auto other = map.find(key)) {
+        other->complain("got it beside 'length', which is of a table of cable lengths, expected one or the other");
+      }
+    }
+    const RoundingSize size = read("length", Dimension::kLength);
+    return {.length_m = size.si, .length = size.text};
+  }
   const RoundingSize position = read("position", Dimension::kLength), angle = read("angle", Dimension::kAngle);
-  return {position.si, angle.si, position.text, angle.text};
+  return {.position_m = position.si, .angle_rad = angle.si, .position = position.text, .angle = angle.text};
 }
 
 AuditedPath read_audited_path(const Field& field, const Units& units, bool has_time) {

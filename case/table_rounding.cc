@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 #include "base/input_error.h"
 #include "base/sanitize.h"
@@ -48,24 +48,40 @@ TableRounding read_table_rounding(const std::string& text, const std::string& op
     while (part.ends_with(' ')) part.pop_back();
     return read_rounding_size(part, dimension);
   };
-  const auto position = read(text.substr(0, comma), Dimension::kLength);
+  const auto size = read(text.substr(0, comma), Dimension::kLength);
+  if (size && comma == std::string::npos) return {.length_m = size->si, .length = size->text};
   const auto angle = read(comma == std::string::npos ? "" : text.substr(comma + 1), Dimension::kAngle);
-  if (!position || !angle) {
-    throw InputError(ErrorCode::kUse,
-                     fmt::format("{}: got '{}', expected {}, and {}, as in 0.1mm,0.01deg", option, excerpt(text),
-                                 rounding_expected(Dimension::kLength), rounding_expected(Dimension::kAngle)));
+  if (!size || !angle) {
+    throw InputError(ErrorCode::kUse, fmt::format("{}: got '{}', expected {}, and {}, as in 0.1mm,0.01deg; or of a "
+                                                  "table of cable lengths the length alone",
+                                                  option, excerpt(text), rounding_expected(Dimension::kLength),
+                                                  rounding_expected(Dimension::kAngle)));
   }
-  return {position->si, angle->si, position->text, angle->text};
+  return {.position_m = size->si, .angle_rad = angle->si, .position = size->text, .angle = angle->text};
 }
 
-TableRounding table_rounding(double position_m, double angle_rad) {
-  for (const auto& [field, size, dimension] : {std::tuple("rounding.position_m", position_m, Dimension::kLength),
-                                               std::tuple("rounding.angle_rad", angle_rad, Dimension::kAngle)}) {
-    if (is_sensible(size, dimension)) continue;
+TableRounding table_rounding(double position_m, double angle_rad, double length_m) {
+  const auto require = [](const char* field, double size, Dimension dimension) {
+    if (is_sensible(size, dimension)) return;
     throw InputError(fmt::format("{}: got {}, expected {}", field, size, rounding_expected(dimension)), {"", 0, field});
+  };
+  const auto metres = [](double size) { return fmt::format("{} m", size); };
+  if (length_m != 0) {
+    require("rounding.length_m", length_m, Dimension::kLength);
+    for (const auto& [field, size] :
+         {std::pair("rounding.position_m", position_m), {"rounding.angle_rad", angle_rad}}) {
+      if (size == 0) continue;
+      throw InputError(fmt::format("{}: got {} beside a rounding of cable lengths, expected 0", field, size),
+                       {"", 0, field});
+    }
+    return {.length_m = std::nextafter(length_m, 0.0), .length = metres(length_m)};
   }
-  return {std::nextafter(position_m, 0.0), std::nextafter(angle_rad, 0.0), fmt::format("{} m", position_m),
-          fmt::format("{} rad", angle_rad)};
+  require("rounding.position_m", position_m, Dimension::kLength);
+  require("rounding.angle_rad", angle_rad, Dimension::kAngle);
+  return {.position_m = std::nextafter(position_m, 0.0),
+          .angle_rad = std::nextafter(angle_rad, 0.0),
+          .position = metres(position_m),
+          .angle = fmt::format("{} rad", angle_rad)};
 }
 
 }  // namespace taut

@@ -13,18 +13,24 @@ namespace taut {
 inline constexpr double kMostRounding_m = 1;
 inline constexpr double kMostRounding_rad = 0.2;
 
-/// Both above 0.
+/// Of a table of poses a position and an angle, of one of cable lengths a length. Each is above 0 if it is stated, and
+/// not above what was typed.
 struct TableRounding {
-  double position_m = 0;        ///< by which the platform's origin may be displaced; not above what was typed
-  double angle_rad = 0;         ///< by which the platform may be turned; likewise
-  std::string position, angle;  ///< as typed, with units
+  double position_m = 0;                      ///< by which the platform's origin may be displaced
+  double angle_rad = 0;                       ///< by which the platform may be turned
+  double length_m = 0;                        ///< by which each cable may be longer or shorter
+  std::string position{}, angle{}, length{};  ///< as typed, with units; empty if not stated
+
+  [[nodiscard]] bool is_of_lengths() const { return !length.empty(); }
+  /// "0.1 mm and 0.01 deg", or "0.1 mm".
+  [[nodiscard]] std::string text() const { return is_of_lengths() ? length : position + " and " + angle; }
 };
 
-/// Reads "0.1mm,0.01deg". @throws InputError, of kind kUse and naming `option`.
+/// Reads "0.1mm,0.01deg", or "0.1mm" of cable lengths. @throws InputError, of kind kUse and naming `option`.
 [[nodiscard]] TableRounding read_table_rounding(const std::string& text, const std::string& option);
 
-/// Of a program's numbers. @throws InputError naming the field.
-[[nodiscard]] TableRounding table_rounding(double position_m, double angle_rad);
+/// Of a program's numbers: those that are not stated are 0. @throws InputError naming the field.
+[[nodiscard]] TableRounding table_rounding(double position_m, double angle_rad, double length_m);
 
 struct RoundingSize {
   double si = 0;

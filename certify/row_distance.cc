@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "certify/row_distance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -10,6 +11,7 @@
 #include "certify/arithmetic/interval.h"
 #include "kinematics/geometry.h"
 #include "kinematics/model.h"
+#include "kinematics/moving_load.h"
 #include "kinematics/quaternion.h"
 
 namespace taut {
@@ -43,7 +45,9 @@ double angle_above(const Matrix3<Interval>& r, const Matrix3<Interval>& s) {
 
 struct RowDistances::Enclosures {
   explicit Enclosures(const Problem& problem)
-      : angles(make_angles<Interval>(problem.space.angles)), pose(pose_tape(problem)) {}
+      : angles(make_angles<Interval>(problem.space.angles)),
+        pose(pose_tape(problem)),
+        model(make_model_without_ellipsoid<Interval>(problem)) {}
 
   [[nodiscard]] EnclosedPose at(std::span<const Interval> parameters) const {
     const Pose<Interval> found = evaluate_pose(pose, parameters);
@@ -53,16 +57,31 @@ struct RowDistances::Enclosures {
     std::vector<Interval> x;
     for (std::size_t j = 0; j < row.x.size(); ++j) {
       x.push_back(around(row.x[j]));
-      if (!row.is_quaternion && row.half_turns[j] != 0) {
+      if (row.form == RowPose::Form::kParameters && row.half_turns[j] != 0) {
         x.back() += Interval(static_cast<double>(row.half_turns[j])) * ScalarTraits<Interval>::pi();
       }
     }
-    if (!row.is_quaternion) return at(x);
+    if (row.form == RowPose::Form::kParameters) return at(x);
     return {{x[0], x[1], x[2]}, rotation(Quaternion<Interval>{x[3], x[4], x[5], x[6]})};
+  }
+
+  /// By how much a cable's length differs from that of the row, at most.
+  [[nodiscard]] double length_off(const EnclosedPose& move, const RowPose& row) const {
+    double most = 0;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const Vector3<Interval> arm = turned(move.r, model.p_PB[i]);
+      Vector3<Interval> d;
+      for (int k = 0; k < 3; ++k) d(k) = move.p(k) + arm(k) - model.p_WA[i](k);
+      const double off = magnitude(euclidean_norm(d(0), d(1), d(2)) - around(row.x[i]));
+      if (!std::isfinite(off)) return off;
+      most = std::max(most, off);
+    }
+    return most;
   }
 
   Angles<Interval> angles;
   Evaluator<Interval> pose;
+  Model<Interval> model;
 };
 
 RowDistances::RowDistances(const Problem& problem, const Path& path) : path_(path) {
@@ -78,7 +97,7 @@ RowDistances::RowDistances(const Problem& problem, const Path& path) : path_(pat
 
 RowDistances::~RowDistances() = default;
 
-std::optional<PoseDistance> RowDistances::at(const Rational& time_s, const RowPose& row) const {
+std::optional<RowDistance> RowDistances::at(const Rational& time_s, const RowPose& row) const {
   using boost::multiprecision::cpp_int;
   const Rational place = time_s / Rational(path_.timing->step_s);
   const std::size_t segments = path_.segments();
@@ -92,7 +111,7 @@ std::optional<PoseDistance> RowDistances::at(const Rational& time_s, const RowPo
     k = whole.convert_to<std::size_t>();
     u = place - Rational(whole);
   }
-  PoseDistance result;
+  RowDistance result;
   const bool is_sound = run_upward([&] {
     const Interval s = from_rational<Interval>(rational_text(u));
     const Segment segment = path_.segment(k);
@@ -100,12 +119,19 @@ std::optional<PoseDistance> RowDistances::at(const Rational& time_s, const RowPo
     for (std::size_t j = 0; j < path_.waypoints.front().x.size(); ++j) {
       parameters.push_back(coordinate_polynomial<Interval>(segment, j).at(s));
     }
-    const EnclosedPose move = enclosures_->at(parameters), stated = enclosures_->of(row);
+    const EnclosedPose move = enclosures_->at(parameters);
+    if (row.form == RowPose::Form::kLengths) {
+      result.length_m = enclosures_->length_off(move, row);
+      return;
+    }
+    const EnclosedPose stated = enclosures_->of(row);
     const Vector3<Interval> d = move.p - stated.p;
     result.position_m = euclidean_norm(d(0), d(1), d(2)).upper();
     result.angle_rad = angle_above(move.r, stated.r);
   });
-  if (!is_sound || !std::isfinite(result.position_m) || !std::isfinite(result.angle_rad)) return std::nullopt;
+  const bool is_bounded =
+      std::isfinite(result.position_m) && std::isfinite(result.angle_rad) && std::isfinite(result.length_m);
+  if (!is_sound || !is_bounded) return std::nullopt;
   return result;
 }
 

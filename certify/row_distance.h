@@ -15,17 +15,24 @@
 
 namespace taut {
 
-/// A pose in the numbers of a table.
+/// A row in the numbers of a table.
 struct RowPose {
-  bool is_quaternion = false;   ///< px, py, pz [m], qx, qy, qz, qw; else the parameters of the space [m, rad]
+  enum class Form {
+    kParameters,  ///< of the space [m, rad]
+    kQuaternion,  ///< px, py, pz [m], qx, qy, qz, qw
+    kLengths,     ///< of the cables, from anchor to anchor [m]
+  };
+  Form form = Form::kParameters;
   std::vector<double> x;        ///< each next to what was typed, in SI
   std::vector<int> half_turns;  ///< of parameters
 };
 
-/// Upper bounds: by so much the platform's origin is displaced, and the platform turned.
-struct PoseDistance {
+/// Upper bounds: by so much the platform's origin is displaced, and the platform turned; or of a row of lengths, by so
+/// much each cable of the machine as typed is longer or shorter.
+struct RowDistance {
   double position_m = 0;
   double angle_rad = 0;
+  double length_m = 0;
 };
 
 class RowDistances {
@@ -41,7 +48,7 @@ class RowDistances {
 
   /// @param time_s  of the move, exactly; before and after it the platform rests at its ends
   /// @returns nothing where a number is beyond what can be enclosed.
-  [[nodiscard]] std::optional<PoseDistance> at(const Rational& time_s, const RowPose& row) const;
+  [[nodiscard]] std::optional<RowDistance> at(const Rational& time_s, const RowPose& row) const;
 
  private:
   struct Enclosures;

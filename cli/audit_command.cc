@@ -382,9 +382,11 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
       .add_option("--interpolation", arguments.law, "what happens between waypoints (default: as the file suggests)")
       ->check(CLI::IsMember(names));
   command.add_flag("--timed", arguments.timed,
-                   "audit a move in time: a certificate's path with its law, or a table of poses with times");
-  command.add_option("--rounding", arguments.rounding,
-                     "how far a table's rows may be from the move that is fitted to them, for example 0.1mm,0.01deg");
+                   "audit a move in time: a certificate's path with its law, or a table with times");
+  command.add_option(
+      "--rounding", arguments.rounding,
+      "how far a table's rows may be from the move that is fitted to them, for example 0.1mm,0.01deg; of "
+      "cable lengths 0.1mm");
   command.add_option("--out", arguments.out,
                      "directory for the results (default: a new one, out/CASE-audit-PATH, or that of these files)");
   command.add_option("--step", arguments.step,

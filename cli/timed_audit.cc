@@ -124,7 +124,7 @@ int run_timed_audit(const AuditArguments& arguments, const Case& the_case, const
   ResultInputs inputs("audit");
   inputs.add_file("case", arguments.case_path);
   inputs.add_file("path", request.path.name);
-  inputs.add("timed", request.rounding ? request.rounding->position + ", " + request.rounding->angle : "exactly");
+  inputs.add("timed", request.rounding ? request.rounding->text() : "exactly");
   const std::filesystem::path out = audit_folder(arguments, request.path.name, inputs);
   const Interruption interruption;
   const TimedAudit audit = audit_move(source, the_case, {arguments.bits, key ? &*key : nullptr, arguments.max_seconds},

@@ -483,10 +483,10 @@ class PathFile::Implementation {
       return name.size() == 2 && (name[0] == 'v' || name[0] == 'a') && name[1] >= '1' && name[1] <= '6';
     };
     if (!unknown.empty() && std::ranges::all_of(unknown, is_rate)) {
-      fail("",
-           fmt::format("got the column '{}', a rate of a winch, expected a path: that of a winches.csv of taut is in "
-                       "the poses.csv beside it",
-                       unknown.front()));
+      fail("", fmt::format(
+                   "got the column '{}', a rate of a winch, expected a path: of a winches.csv of taut its columns t "
+                   "and l1 to l6 alone, or the poses.csv beside it",
+                   unknown.front()));
     }
     if (!unknown.empty()) {
       const std::string hint = angles_hint(unknown.front(), space_.angles.kind);

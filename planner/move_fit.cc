@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kinematics/pose_conversion.h"
+
 namespace taut {
 namespace {
 
@@ -21,12 +23,18 @@ constexpr double kBelowOne = 1 - 1e-6;       // leaves something to proved bound
 constexpr double kLeastPenalty = -6, kMostPenalty = 6;  // powers of ten, a row
 constexpr double kLightPenalty = -2;
 
-RowOffset offset(const RigidPose& a, const RigidPose& b, const RowRounding& rounding) {
+RowOffset offset(const Model<double>& model, const RigidPose& a, const RigidPose& b, const RowRounding& rounding) {
   RowOffset result;
   result.position_m = (a.p - b.p).norm();
   const Eigen::Quaterniond turn = a.q.conjugate() * b.q;
   result.angle_rad = 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
-  result.share = std::max(result.position_m / rounding.position_m, result.angle_rad / rounding.angle_rad);
+  if (rounding.length_m > 0) {
+    const std::array<double, kCables> of_a = cable_lengths(model, a), of_b = cable_lengths(model, b);
+    for (std::size_t i = 0; i < kCables; ++i) result.length_m = std::max(result.length_m, std::abs(of_a[i] - of_b[i]));
+    result.share = result.length_m / rounding.length_m;
+  } else {
+    result.share = std::max(result.position_m / rounding.position_m, result.angle_rad / rounding.angle_rad);
+  }
   if (!std::isfinite(result.share)) result.share = kInfinity;
   return result;
 }
@@ -130,7 +138,7 @@ class Fitter {
           parameters[j] += at.weights[a] * fit.values(value, static_cast<Eigen::Index>(j));
         }
       }
-      RowOffset row = offset(sampler_.rigid_pose(sampler_.pose(parameters)), poses_[i], rounding_);
+      RowOffset row = offset(sampler_.model(), sampler_.rigid_pose(sampler_.pose(parameters)), poses_[i], rounding_);
       row.row = i;
       if (i == 0 || row.share > result.share) result = row;
     }
@@ -202,7 +210,7 @@ std::optional<MovingEnd> moving_end(const Problem& problem, std::span<const Time
   for (const bool is_last : {false, true}) {
     const auto row = [&](std::size_t i) -> const TimedRow& { return rows[is_last ? rows.size() - 1 - i : i]; };
     const auto from_end = [&](std::size_t i) {
-      return offset(sampler.rigid_pose(sampler.pose(row(0).parameters)),
+      return offset(sampler.model(), sampler.rigid_pose(sampler.pose(row(0).parameters)),
                     sampler.rigid_pose(sampler.pose(row(i).parameters)), rounding);
     };
     const auto seconds = [&](std::size_t i) { return std::abs(row(i).time_s - row(0).time_s); };

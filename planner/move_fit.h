@@ -23,10 +23,11 @@ struct TimedRow {
 };
 
 /// How far a row may be from the move at its time: by so much the platform's origin is displaced, and the platform
-/// turned.
+/// turned; or by so much each cable is longer or shorter, where that is above 0.
 struct RowRounding {
   double position_m = 0;
   double angle_rad = 0;
+  double length_m = 0;
 };
 
 /// How far a row is from a move, in floating point.
@@ -34,7 +35,8 @@ struct RowOffset {
   std::size_t row = 0;
   double position_m = 0;
   double angle_rad = 0;
-  /// The greater of both over the rounding: 1 or less if the row is within it.
+  double length_m = 0;  ///< of the cable of which it is largest
+  /// The greatest of these over the rounding: 1 or less if the row is within it.
   double share = 0;
 };
 

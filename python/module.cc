@@ -16,6 +16,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 namespace py = pybind11;
@@ -395,7 +396,8 @@ void add_plan_and_prove(py::module_& module) {
       "max_check_seconds"_a);
 }
 
-using Rounding = std::optional<std::pair<double, double>>;
+/// Of poses, or of cable lengths.
+using Rounding = std::optional<std::variant<std::pair<double, double>, double>>;
 
 taut::AuditOptions audit_options(const std::optional<std::string>& interpolation, long max_bits,
                                  const std::string& signing_key, double max_check_seconds, double headroom_seconds,
@@ -407,7 +409,13 @@ taut::AuditOptions audit_options(const std::optional<std::string>& interpolation
   options.max_check_seconds = max_check_seconds;
   options.headroom_seconds = headroom_seconds;
   options.timed = timed;
-  if (rounding) options.rounding = {rounding->first, rounding->second};
+  if (rounding) {
+    if (const auto* of_poses = std::get_if<std::pair<double, double>>(&*rounding)) {
+      options.rounding = {.position_m = of_poses->first, .angle_rad = of_poses->second};
+    } else {
+      options.rounding = {.length_m = std::get<double>(*rounding)};
+    }
+  }
   return options;
 }
 

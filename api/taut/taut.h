@@ -431,10 +431,12 @@ struct ProveOptions {
 /// @throws InputError where the path does not fit the case; Interrupted.
 [[nodiscard]] TAUT_EXPORT Certificate prove(const Case& the_case, const Path& path, const ProveOptions& options = {});
 
-/// How far rows of a table with times may be from the move that is fitted to them.
+/// How far rows of a table with times may be from the move that is fitted to them: of poses a position and an angle, of
+/// cable lengths a length. What is not stated is 0.
 struct Rounding {
-  double position_m = 0;  ///< by which the platform's origin may be displaced, above 0
-  double angle_rad = 0;   ///< by which the platform may be turned, above 0
+  double position_m = 0;  ///< by which the platform's origin may be displaced
+  double angle_rad = 0;   ///< by which the platform may be turned
+  double length_m = 0;    ///< by which each cable may be longer or shorter
 };
 
 struct AuditOptions {
@@ -446,7 +448,7 @@ struct AuditOptions {
   double max_check_seconds = kCheckSeconds;    ///< that the checker may take before the certificate is unchecked
   double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares; 0: they are not sought
   /// Audit a move in time, in a case with the key `time`: a certificate's path with its law, or a move that is fitted
-  /// to a table of poses with times, within `rounding` of all its rows (docs/audits.md). There are no stretches then,
+  /// to a table with times, within `rounding` of all its rows (docs/audits.md). There are no stretches then,
   /// and no provable shares.
   bool timed = false;
   std::optional<Rounding> rounding = {};  ///< of a table; nothing: the case's own

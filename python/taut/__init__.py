@@ -556,7 +556,7 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
           columns: Optional[Sequence[str]] = None, interpolation: Optional[str] = None,
           max_bits: int = 4096, signing_key: str = "", name: str = "table",
           max_check_seconds: float = CHECK_SECONDS, headroom_seconds: float = HEADROOM_SECONDS,
-          timed: bool = False, rounding: Optional[tuple[float, float]] = None,
+          timed: bool = False, rounding: Union[tuple[float, float], float, None] = None,
           progress: Optional[Progress] = None) -> Certificate:
     """Proves a path, or lists every stretch that is not proved, with the reason: `taut audit`.
 
@@ -568,9 +568,10 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
     :param interpolation: "straight", "geodesic" or "cable-lengths"; None: as the file suggests
     :param name: name of a table, for messages and the certificate
     :param headroom_seconds: time limit for Certificate.headroom; 0: it is not sought
-    :param timed: audit a move in time: a certificate's path with its law, or a move that is fitted to a table of poses
-        with times. There are no stretches then, and no headroom.
-    :param rounding: how far rows of such a table may be from the move: by (metres, radians); None: the case's own
+    :param timed: audit a move in time: a certificate's path with its law, or a move that is fitted to a table with
+        times. There are no stretches then, and no headroom.
+    :param rounding: how far rows of such a table may be from the move: of poses by (metres, radians), of cable lengths
+        by metres; None: the case's own
     """
     if path is None or isinstance(path, (str, os.PathLike)):
         if columns is not None:

@@ -239,11 +239,11 @@ std::string what_text(const BrokenLimit& broken) {
   if (broken.is_singular) return machine;
   if (broken.bodies && broken.bodies->is_in_cone) return "is left";
   if (broken.bodies) return broken.bodies->distance < 0 ? "in each other" : "nearer than their clearance";
-  if (broken.rate) return too_fast_text(broken.rate->kind);
-  const bool upper = is_upper(broken.margin);
-  const char* const what = is_length(broken.margin) ? (upper ? "too long" : "too short")
-                           : upper                  ? "above its top tension"
-                                                    : "below its slack limit";
+  const bool upper = !broken.rate && is_upper(broken.margin);
+  const char* const what = broken.rate                ? too_fast_text(broken.rate->kind)
+                           : is_length(broken.margin) ? (upper ? "too long" : "too short")
+                           : upper                    ? "above its top tension"
+                                                      : "below its slack limit";
   return fmt::format("{}{}{}", what, deviates ? ", " : "", machine);
 }
 
@@ -330,10 +330,11 @@ std::string table_text(const ReportContext& scene) {
   const auto& table = scene.illustration.table;
   if (!table || !scene.certificate.source || !scene.certificate.path.timing) return "";
   return fmt::format(
-      "The move was fitted to the table {}: all {} of its rows lie within {} and {} of it at their times, says the "
-      "program that fitted it; the checker is not told of rows. The rows' last digits, and how a drive joins the "
-      "rows, are no part of the move.",
-      audited_file(scene), table->rows, table->position, table->angle);
+      "The move was fitted to the table {}: all {} of its rows lie within {} of {} at their times, says the program "
+      "that "
+      "fitted it; the checker is not told of rows. The rows' last digits, and how a drive joins the rows, are no part "
+      "of the move.",
+      audited_file(scene), table->rows, table->rounding, table->is_of_lengths ? "its cable lengths" : "it");
 }
 
 }  // namespace taut

@@ -57,9 +57,10 @@ std::optional<Illustration::Table> table_from_json(const nlohmann::json& table) 
     const auto& stated = rounding[key].get_ref<const std::string&>();
     return is_label(stated) ? stated : "";
   };
-  Illustration::Table result{table["rows"].get<std::size_t>(), text("position"), text("angle")};
-  if (result.position.empty() || result.angle.empty()) return std::nullopt;
-  return result;
+  const auto rows = table["rows"].get<std::size_t>();
+  if (!text("length").empty()) return Illustration::Table{rows, text("length"), true};
+  if (text("position").empty() || text("angle").empty()) return std::nullopt;
+  return Illustration::Table{rows, text("position") + " and " + text("angle"), false};
 }
 
 }  // namespace

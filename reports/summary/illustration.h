@@ -27,7 +27,8 @@ struct Illustration {
   /// A table to which the move was fitted.
   struct Table {
     std::size_t rows = 0;
-    std::string position, angle;  ///< its stated rounding
+    std::string rounding;  ///< stated: "0.1 mm and 0.01 deg"
+    bool is_of_lengths = false;
   };
 
   std::optional<Headroom> headroom;

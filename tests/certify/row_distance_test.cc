@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "base/input_error.h"
+#include "kinematics/pose_conversion.h"
 #include "kinematics/pose_sampler.h"
 #include "problem/decimal.h"
 #include "tests/support/robots.h"
@@ -50,7 +52,8 @@ TEST(RowDistance, IsNextToNothingOfARowOnTheMove) {
     const Problem problem = flying(kind);
     const Path path = some_move();
     const RowDistances distances(problem, path);
-    const auto off = distances.at(exactly("0.66"), {false, parameters_at(path, 0.66 / 0.3), std::vector<int>(6, 0)});
+    const auto off = distances.at(
+        exactly("0.66"), {RowPose::Form::kParameters, parameters_at(path, 0.66 / 0.3), std::vector<int>(6, 0)});
     ASSERT_TRUE(off);
     EXPECT_GT(off->position_m, 0);
     EXPECT_LT(off->position_m, 1e-13);
@@ -78,7 +81,8 @@ TEST(RowDistance, IsAboveTheDistanceAndByLittle) {
     Eigen::Quaterniond q = Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis)) * on.q;
     q.coeffs() *= length;
     const Vector3<double> p = on.p + shift;
-    const auto off = distances.at(time_s, {true, {p(0), p(1), p(2), q.x(), q.y(), q.z(), q.w()}, {}});
+    const auto off =
+        distances.at(time_s, {RowPose::Form::kQuaternion, {p(0), p(1), p(2), q.x(), q.y(), q.z(), q.w()}, {}});
     ASSERT_TRUE(off);
     constexpr double kRounding = 1e-14;  // of this test's own numbers
     EXPECT_GE(off->position_m, shift.norm() - kRounding);
@@ -92,8 +96,8 @@ TEST(RowDistance, TakesTheEndsBeforeAndAfterTheMove) {
   const Problem problem = flying();
   const Path path = some_move();
   const RowDistances distances(problem, path);
-  const RowPose first{false, path.waypoints.front().x, std::vector<int>(6, 0)};
-  const RowPose last{false, path.waypoints.back().x, std::vector<int>(6, 0)};
+  const RowPose first{RowPose::Form::kParameters, path.waypoints.front().x, std::vector<int>(6, 0)};
+  const RowPose last{RowPose::Form::kParameters, path.waypoints.back().x, std::vector<int>(6, 0)};
   EXPECT_LT(distances.at(0, first)->position_m, 1e-14);
   EXPECT_LT(distances.at(-1, first)->position_m, 1e-14);
   // 6 h, with h next to 0.3: the exact time is not the law's.
@@ -106,17 +110,46 @@ TEST(RowDistance, TakesTheEndsBeforeAndAfterTheMove) {
 TEST(RowDistance, CountsHalfTurns) {
   const Problem problem = flying();
   const Path path = some_move();
-  RowPose row{false, path.waypoints.front().x, std::vector<int>(6, 0)};
+  RowPose row{RowPose::Form::kParameters, path.waypoints.front().x, std::vector<int>(6, 0)};
   row.half_turns[5] = 2;
   EXPECT_LT(RowDistances(problem, path).at(0, row)->angle_rad, 1e-13);
   row.half_turns[5] = 1;
   EXPECT_GE(RowDistances(problem, path).at(0, row)->angle_rad, 3.14159265);
 }
 
+TEST(RowDistance, OfLengthsIsAboveThatOfEachCableAndByLittle) {
+  const Problem problem = flying(AngleKind::kRollPitchYaw);
+  const Path path = some_move();
+  const RowDistances distances(problem, path);
+  const PoseSampler sampler(problem);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> some(-1, 1);
+  for (int i = 0; i < 400; ++i) {
+    const std::string time = std::to_string(0.9 + 0.8 * some(random));
+    const RigidPose pose = sampler.rigid_pose(sampler.pose(parameters_at(path, std::stod(time) / 0.3)));
+    const std::array<double, kCables> lengths = cable_lengths(sampler.model(), pose);
+    RowPose row{RowPose::Form::kLengths, {lengths.begin(), lengths.end()}, {}};
+    double most = 0;
+    for (double& x : row.x) {
+      const double off = std::pow(10, 4 * some(random) - 5) * some(random);
+      x += off;
+      most = std::max(most, std::abs(off));
+    }
+    const auto found = distances.at(exactly(time.c_str()), row);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->position_m, 0);
+    EXPECT_GT(found->length_m, most - 1e-14);
+    EXPECT_LT(found->length_m, most + 1e-12);
+  }
+  RowPose beyond{RowPose::Form::kLengths, std::vector<double>(6, 1), {}};
+  beyond.x[4] = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(distances.at(1, beyond));
+}
+
 TEST(RowDistance, SaysNothingOfWhatItCannotEnclose) {
   const Problem problem = flying();
   const Path path = some_move();
-  RowPose row{false, path.waypoints.front().x, std::vector<int>(6, 0)};
+  RowPose row{RowPose::Form::kParameters, path.waypoints.front().x, std::vector<int>(6, 0)};
   row.x[0] = 1e300;
   EXPECT_FALSE(RowDistances(problem, path).at(0, row));
 }

@@ -39,6 +39,29 @@ def quaternions(rows, separator=",", header="t[s],px[m],py[m],pz[m],qx,qy,qz,qw\
     return "".join(lines)
 
 
+ANCHORS = [[[float(x) for x in point.split(",")] for point in re.findall(r"\[([^][]+)\]", line)]
+           for line in re.findall(r"^  (?:base|platform)_anchors: (.*)$", CRANE, flags=re.M)]
+
+
+def lengths_of(x, y, z, yaw):
+    """Of the crane's six cables, from anchor to anchor [m]."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    return [math.dist(a, (x + c * b[0] - s * b[1], y + s * b[0] + c * b[1], z + b[2]))
+            for a, b in zip(*ANCHORS, strict=True)]
+
+
+def lengths(rows, digits=4, start=True, change=None):
+    pose = "px[m],py[m],pz[m],phi[deg],theta[deg],sigma[deg]"
+    lines = ["t[s]," + ",".join(f"l{i}[m]" for i in range(1, 7)) + (f",{pose}\n" if start else "\n")]
+    for n, (t, *place) in enumerate(rows):
+        cells = [round(length, digits) for length in lengths_of(*place)]
+        if change:
+            change(n, cells)
+        first = [*place[:3], 0, 0, math.degrees(place[3])] if n == 0 else [""] * 6
+        lines.append(",".join([repr(t), *map(repr, cells), *(map(str, first) if start else ())]) + "\n")
+    return "".join(lines)
+
+
 class TimedAudits(InFolder):
     def setUp(self):
         super().setUp()
@@ -102,6 +125,66 @@ class TimedAudits(InFolder):
             self.assertLess(math.dist(at[:3], (x, y, z)), 1e-4)
             self.assertLess(math.hypot(at[3], at[4], at[5] - yaw), math.radians(0.0101))
 
+    def test_cable_lengths_are_proved_within_their_rounding(self):
+        rows = log(begin=3.0)
+        found = self.audited(self.write("winches.csv", lengths(rows)), "--timed", "--rounding", "0.2mm")
+        self.assertEqual(found["verdict"], "proved")
+        fitted = found["table"]
+        self.assertEqual((fitted["rounding"], fitted["rows"]), ({"length": "0.2 mm"}, 401))
+        self.assertTrue(2e-5 < fitted["length_m"] < 2e-4, fitted)
+        self.assertNotIn("position_m", fitted)
+        self.assertIn("The cable lengths of all 401 rows lie within 0.2 mm of those of this move", found["read"])
+        # Independently of taut: the certificate's spline, in roll, pitch and yaw, at each row's time.
+        path = self.certificate("out")["path"]
+        control = [[float.fromhex(x) for x in waypoint["x"]] for waypoint in path["waypoints"]]
+        step = float.fromhex(path["timing"]["step_s"])
+        most = 0
+        for t, *place in rows:
+            k = min(int((t - 3) / step), len(control) - 4)
+            u = (t - 3) / step - k
+            weights = [(1 - u)**3 / 6, (3 * u**3 - 6 * u**2 + 4) / 6, (-3 * u**3 + 3 * u**2 + 3 * u + 1) / 6, u**3 / 6]
+            at = [sum(w * control[k + i][j] for i, w in enumerate(weights)) for j in range(6)]
+            self.assertLess(math.hypot(at[3], at[4]), 1e-3)  # it hardly rolls or pitches
+            pairs = zip(lengths_of(*at[:3], at[5]), lengths_of(*place), strict=True)
+            most = max(most, *(abs(a - b) for a, b in pairs))
+        self.assertLess(most, 4e-4)
+        checked = run(CHECK, self.path("out", "certificate.json"), self.case, "--expect", "proved")
+        self.assertEqual(checked.returncode, 0, checked.stdout)
+        said = run(TAUT, "audit", self.case, self.path("winches.csv"), "--out", self.path("with-report"), "--timed",
+                   "--rounding", "0.2mm")
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertIn("all 401 of its rows lie within 0.2 mm of its cable lengths at their times",
+                      text_of(self.path("with-report", "report.html")))
+
+        said = self.audit(self.write("fast.csv", lengths(log(duration=17, rows=341))), "--timed", "--rounding", "0.2mm",
+                          code=1)
+        self.assertIn("its limit is 0.8", re.sub(r"\s+", " ", said))
+
+    def test_what_is_no_move_in_lengths_is_refused_with_its_line(self):
+        rounding = ("--timed", "--rounding", "0.2mm")
+        rows = log()
+
+        def blunder(n, cells):
+            cells[2] += 0.01 if n == 200 else 0
+
+        def swapped(_, cells):
+            cells[0], cells[4] = cells[4], cells[0]
+
+        def lost(n, cells):
+            cells[3] += 9 if n == 50 else 0
+
+        said = self.audit(self.write("blunder.csv", lengths(rows, change=blunder)), *rounding, code=3)
+        self.assertRegex(said, r"blunder\.csv:202: got a row that is [0-9.]+ mm in a cable's length off")
+        self.assertRegex(said, r"would\s+do\s+for\s+this\s+row:\s+[0-9.]+\s+mm;")
+        self.refused(lengths(rows, change=swapped), "wrong.csv:2: got a start pose", "l1 and l5 exchanged",
+                     options=rounding)
+        self.refused(lengths(rows, change=lost), "wrong.csv:52: got cable lengths for which no pose was found",
+                     options=rounding)
+        self.refused(lengths(rows, start=False), "expected the pose to start from", options=rounding)
+        self.refused(lengths(rows), "got cable lengths and a rounding of poses")
+        self.refused(quaternions(rows), "got poses and a rounding of cable lengths", options=rounding)
+        self.refused(lengths(rows[:200]), "wrong.csv:201: got a platform that still goes at 0.7", options=rounding)
+
     def test_a_move_that_is_feasible_slowly_is_refuted_fast(self):
         said = self.audit(self.write("fast.csv", quaternions(log(duration=17, rows=341))), *ROUNDING, code=1)
         self.assertRegex(said, r"REFUTED[^:]*: at t = [0-9.]+ s \(lines? [0-9-]+\)")
@@ -163,6 +246,9 @@ class TimedAudits(InFolder):
                 ("rounding: {position: 0.1 mm, angle: 0.01 deg}", "without 'timed: true'"),
                 ("timed: maybe", "true"),
                 ("timed: true, rounding: {position: 0.1 mm}", "expected the key 'angle'"),
+                ("timed: true, rounding: {length: 0.1 mm, angle: 1 deg}", "beside 'length'"),
+                ("timed: true, rounding: {length: 0.1 deg}", "a length from"),
+                ("timed: true, rounding: {length: 0.1 mm}", "got poses and a rounding of cable lengths"),
                 ("timed: true, rounding: {position: 0.1 deg, angle: 0.1 deg}", "a length from"),
                 ("timed: true, rounding: {position: 0.1 mm, angle: -1 deg}", "an angle from"),
                 ("timed: true, rounding: {position: 0, angle: 1 deg}", "a length from")):
@@ -209,7 +295,7 @@ class TimedAudits(InFolder):
         for duration in (1e-200, 1e200):
             self.refused(quaternions(log(duration=duration)), "expected a move of 0.001 s to")
         self.refused("".join(re.sub(r"^[^,]*,", "", line) for line in lines), "got no column t")
-        self.refused("t[s],l1[m],l2[m],l3[m],l4[m],l5[m],l6[m]\n0,9,9,9,9,9,9\n", "got cable lengths, expected poses")
+        self.refused("t[s],l1[m],l2[m],l3[m],l4[m],l5[m],l6[m]\n0,9,9,9,9,9,9\n", "got cable lengths and a rounding of")
         self.refused("t[s],l1[m],l2[m],l3[m],l4[m],l5[m],l6[m],v1[m/s]\n0,9,9,9,9,9,9,0\n", "poses.csv beside it")
 
     def test_constraints_are_not_asked_of_poses(self):
@@ -238,7 +324,7 @@ class TimedAudits(InFolder):
         self.refused(table, "--rounding: got it without --timed", options=ROUNDING[1:])
         self.refused(table, "a law between rows", options=(*ROUNDING, "--interpolation", "geodesic"))
         self.refused(table, "--step", options=(*ROUNDING, "--step", "1mm"))
-        for rounding in ("0.1mm", "0.1mm,0.01mm", "0.1,0.01", "0.01deg,0.1mm", "0mm,1deg", "-1mm,1deg", "2m,1deg",
+        for rounding in ("0.1mm,", "0.1mm,0.01mm", "0.1,0.01", "0.01deg,0.1mm", "0mm,1deg", "-1mm,1deg", "2m,1deg",
                          "0.1mm,30deg", "0.1mm,0.01deg,1", "nanmm,1deg"):
             with self.subTest(rounding):
                 self.refused(table, "--rounding: got", options=("--timed", f"--rounding={rounding}"))

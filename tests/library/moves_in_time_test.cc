@@ -257,6 +257,37 @@ TEST(MoveInTime, IsAuditedFromItsOwnPoses) {
   EXPECT_THAT(field_of(options, ""), HasSubstr("without the key 'time'"));
 }
 
+TEST(MoveInTime, IsAuditedFromItsOwnLengths) {
+  const taut::Table winches = planned().winches(50);
+  const auto all = static_cast<std::ptrdiff_t>(winches.columns.size());
+  constexpr std::ptrdiff_t kKept = 7;  // t[s], l1[m] …
+  taut::Table lengths{{winches.columns.begin(), winches.columns.begin() + kKept}, {}};
+  for (auto row = winches.values.begin(); row != winches.values.end(); row += all) {
+    lengths.values.insert(lengths.values.end(), row, row + kKept);
+  }
+  taut::AuditOptions options;
+  options.timed = true;
+  options.rounding = taut::Rounding{0, 0, 2e-5};
+  const Certificate audited = taut::audit(crane(kLimits), lengths, options);
+  ASSERT_EQ(audited.verdict(), Verdict::kProved) << audited.reason();
+  EXPECT_NEAR(audited.duration_s().value(), planned().duration_s().value(), 1e-9);
+  EXPECT_EQ(audited.path().interpolation, taut::Interpolation::kSpline);
+
+  const auto field_of = [&](const taut::Rounding& rounding, const taut::Table& table) -> std::string {
+    options.rounding = rounding;
+    try {
+      (void)taut::audit(crane(kLimits), table, options);
+    } catch (const taut::InputError& error) {
+      return error.field().empty() ? error.what() : error.field();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(field_of({1e-5, 0, 1e-5}, lengths), "rounding.position_m");
+  EXPECT_EQ(field_of({0, 0, -1}, lengths), "rounding.length_m");
+  EXPECT_THAT(field_of({1e-5, 1e-5}, lengths), HasSubstr("got cable lengths and a rounding of poses"));
+  EXPECT_THAT(field_of({0, 0, 1e-5}, planned().poses(50)), HasSubstr("got poses and a rounding of cable lengths"));
+}
+
 TEST(MoveInTime, SaysWhatIsWrong) {
   const taut::Case at_rest = crane(""), in_time = crane(kLimits);
   const auto field_of_plan = [](const taut::Case& the_case, double share, bool greatest) {

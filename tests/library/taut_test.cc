@@ -505,7 +505,7 @@ TEST(Abi, HasTypesOfTheseSizes) {
   EXPECT_EQ(sizeof(taut::Progress), 24U);
   EXPECT_EQ(sizeof(taut::PlanOptions), 192U);
   EXPECT_EQ(sizeof(taut::ProveOptions), 56U);
-  EXPECT_EQ(sizeof(taut::AuditOptions), 136U);
+  EXPECT_EQ(sizeof(taut::AuditOptions), 144U);
   EXPECT_EQ(sizeof(taut::SensitivityOptions), 56U);
   EXPECT_EQ(sizeof(taut::CheckResult), 144U);
   EXPECT_EQ(sizeof(taut::CheckOptions), 72U);

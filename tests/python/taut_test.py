@@ -481,6 +481,11 @@ class MovesInTime(unittest.TestCase):
         with self.assertRaises(taut.InputError) as caught:
             taut.audit(self.case, table, timed=True, rounding=(1e-5, 0.0))
         self.assertEqual(caught.exception.field, "rounding.angle_rad")
+        winches = self.planned.winches(50)
+        lengths = {"t[s]": winches.time_s, **{f"l{i + 1}[m]": winches.length_m[:, i] for i in range(6)}}
+        self.assertTrue(taut.audit(self.case, lengths, timed=True, rounding=2e-5).is_proved)
+        with self.assertRaisesRegex(taut.InputError, "got cable lengths and a rounding of poses"):
+            taut.audit(self.case, lengths, timed=True, rounding=(1e-5, 1e-5))
         # Rows that are rounded to 1 mm are not within 10 um of any smooth move.
         with self.assertRaises(taut.InputError):
             taut.audit(self.case, {**table, "px[m]": np.round(table["px[m]"], 3)}, timed=True, rounding=(1e-5, 1e-5))
