@@ -61,7 +61,7 @@ struct MoveTally {
   /// Of exact machines and loads, and of those with tolerances.
   std::array<std::array<std::array<Row, kMoveDecades>, kKindNames.size()>, 2> rows;
   Count trials{0}, skipped{0}, wrong{0}, proved{0}, refuted{0}, undecided{0}, boxes{0}, multiprecision{0};
-  Count deviating{0}, ranges{0}, slowed{0}, refuted_slowed{0}, refuted_deviating{0};
+  Count deviating{0}, held{0}, held_proved{0}, ranges{0}, slowed{0}, refuted_slowed{0}, refuted_deviating{0};
   Count looked_at{0}, judged{0}, compared{0};
   Count refuted_too_fast{0}, refuted_tension{0}, refuted_length{0}, refuted_singular{0};
   Count kernel_boxes{0}, kernel_moves{0}, kernel_proved{0}, kernel_refuted{0}, kernel_not_led{0}, kernel_open{0};
@@ -104,10 +104,10 @@ void choose_masses(Trial& trial, Random& random, bool is_exact) {
   }
 }
 
-/// Deviations of anchors and of tracking alone.
+/// Deviations of anchors, and of tracking or of cable lengths, alone.
 void clear_other_tolerances(Trial& trial) {
   if (!trial.problem.tolerances) return;
-  trial.problem.tolerances->cable_length_m.reset();
+  if (trial.tolerances != ToleranceKind::kCables) trial.problem.tolerances->cable_length_m.reset();
   trial.problem.tolerances->load_point_m = "0";
   trial.problem.tolerances->wrench.fill("0");
 }
@@ -185,7 +185,12 @@ class MoveJudge {
   void run() {
     ++tally_.trials;
     make_move();
-    if (!find_extremum() || !set_limit()) {
+    try {
+      if (!find_extremum() || !set_limit()) {
+        ++tally_.skipped;
+        return;
+      }
+    } catch (const NoPose&) {  // and so there is no way to compare
       ++tally_.skipped;
       return;
     }
@@ -200,7 +205,12 @@ class MoveJudge {
       case Verdict::kProved:
         ++tally_.proved;
         if (!violated_) ++row.clear_proved;
-        examine_proof();
+        if (trial_.is_held()) ++tally_.held_proved;
+        try {
+          examine_proof();
+        } catch (const NoPose&) {
+          breach("proved where the machine finds no pose that it is held at");
+        }
         break;
       case Verdict::kRefuted:
         ++tally_.refuted;
@@ -237,9 +247,9 @@ class MoveJudge {
 
   void make_move() {
     is_for_kernel_ = seed_ % options_.kernels == 0;
-    constexpr std::array<ToleranceKind, 3> kDeviating = {ToleranceKind::kAnchors, ToleranceKind::kTracking,
-                                                         ToleranceKind::kTogether};
-    const ToleranceKind tolerances = one_in(random_, 3) ? kDeviating[random_() % 3] : ToleranceKind::kNone;
+    constexpr std::array<ToleranceKind, 4> kDeviating = {ToleranceKind::kAnchors, ToleranceKind::kTracking,
+                                                         ToleranceKind::kTogether, ToleranceKind::kCables};
+    const ToleranceKind tolerances = one_in(random_, 3) ? kDeviating[random_() % 4] : ToleranceKind::kNone;
     const int tries = is_for_kernel_ ? 100 : 1;
     for (int n = 0; n < tries && (n == 0 || !pulls()); ++n) {
       trial_ = make_trial(random_, one_in(random_, 2) ? Law::kStraight : Law::kSpline, tolerances, {});
@@ -267,6 +277,7 @@ class MoveJudge {
       has_ranges = has_ranges || weight->mass_lower != weight->mass_upper || number<double>(weight->at_tolerance) > 0;
     }
     if (has_tolerances()) ++tally_.deviating;
+    if (trial_.is_held()) ++tally_.held;
     if (may_stop()) ++tally_.slowed;
     if (has_ranges) ++tally_.ranges;
     is_exact_ = !has_tolerances() && !has_ranges;
@@ -711,10 +722,11 @@ void print_rows(const MoveTally& tally) {
 void print_summary(const MoveTally& tally, double seconds) {
   const long trials = tally.trials;
   fmt::print(
-      "\n{} segments ({} with machines that deviate, {} with masses in ranges, {} that may be slowed down, {} "
-      "skipped): {} proved, {} refuted, {} undecided\n",
-      trials, tally.deviating.load(), tally.ranges.load(), tally.slowed.load(), tally.skipped.load(),
-      tally.proved.load(), tally.refuted.load(), tally.undecided.load());
+      "\n{} segments ({} with machines that deviate, {} of them held by lengths, of which {} are proved; {} with "
+      "masses in "
+      "ranges, {} that may be slowed down, {} skipped): {} proved, {} refuted, {} undecided\n",
+      trials, tally.deviating.load(), tally.held.load(), tally.held_proved.load(), tally.ranges.load(),
+      tally.slowed.load(), tally.skipped.load(), tally.proved.load(), tally.refuted.load(), tally.undecided.load());
   fmt::print(
       "refuted by a tension {}, a rate {}, a length {}, a singular pose {}; {} of them where it is slowed down, {} by "
       "a deviation\n",

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <optional>
 #include <string>
 #include <vector>
@@ -190,6 +191,7 @@ Rows<S> transpose(const Rows<S>& r) {
 /// At one time: the commanded pose, the first and second differences of p and R, and those of the cables' lengths.
 template <class S>
 struct Instant {
+  S place;  ///< on the segment
   RigidPose<S> pose;
   Vec<S> p1, p2;
   Rows<S> r1, r2;
@@ -224,6 +226,9 @@ struct Instant {
   }
 };
 
+/// Of a machine that is held by lengths: it finds none next to the commanded pose.
+class NoPose : public std::exception {};
+
 template <class S>
 class Simulation {
  public:
@@ -256,6 +261,7 @@ class Simulation {
     const auto first = [&](const S& a, const S& b) -> S { return (b - a) / twice; };
     const auto second = [&](const S& a, const S& x, const S& b) -> S { return (a - x - (x - b)) / square; };
     Instant<S> result;
+    result.place = law_at(law_, piece, t) - segment_;
     result.pose = now;
     for (std::size_t i = 0; i < 3; ++i) {
       result.p1[i] = first(before.p[i], after.p[i]);
@@ -275,10 +281,9 @@ class Simulation {
 
   /// The machine and pose as they are, with what the load's mass asks for taken from the wrench.
   [[nodiscard]] MachineAt<S> machine_at(const Instant<S>& commanded, const Deviation& x, const Choice& as) const {
-    RigidPose<S> pose = commanded.pose;
-    pose.p = pose.p + scaled(tolerances_.position, x.position);
-    pose.r = turn(scaled(tolerances_.turn, x.turn)) * pose.r;
-    return with_inertia({deviate(machine_, tolerances_, x), pose}, commanded, as);
+    const std::optional<RigidPose<S>> pose = motion_.pose(commanded.place, x);
+    if (!pose) throw NoPose();
+    return with_inertia({deviate(machine_, tolerances_, x), *pose}, commanded, as);
   }
   [[nodiscard]] MachineAt<S> with_inertia(MachineAt<S> at, const Instant<S>& commanded, const Choice& as) const {
     const Instant<S> x = commanded.moved_to(at.pose);
