@@ -417,6 +417,14 @@ std::optional<Slowing> read_slowing(const JsonCursor& witness) {
   return Slowing{decimal(slowing.at("speed")), static_cast<int>(slowing.at("change").integer(-1, 1))};
 }
 
+/// Of the machine that deviates, if the witness is of one.
+void read_deviating(const JsonCursor& witness, Witness& result) {
+  if (!witness.contains("deviation")) return;
+  const JsonCursor deviation = witness.at("deviation");
+  result.violation.deviation = std::make_shared<const Deviation>(read_deviation(deviation));
+  if (result.violation.deviation->cable_lengths_m) read_way(deviation.at("way"), result);
+}
+
 Witness read_witness(const JsonCursor& witness, const Path& path) {
   Witness result;
   PathWitness& violation = result.violation;
@@ -440,6 +448,7 @@ Witness read_witness(const JsonCursor& witness, const Path& path) {
     violation.value_upper = decimal(value[1]);
     violation.limit = witness.at("limit").text();
     result.at_box = read_proof_at(witness.at("proof"), violation.at);
+    read_deviating(witness, result);
     return result;
   }
   if (!limit) {
@@ -459,11 +468,7 @@ Witness read_witness(const JsonCursor& witness, const Path& path) {
     std::vector<checker::LoadChoice>& loads = result.loads.emplace();
     for (const JsonCursor& load : witness.at("loads").elements()) loads.push_back(read_load(load));
   }
-  if (witness.contains("deviation")) {
-    const JsonCursor deviation = witness.at("deviation");
-    violation.deviation = std::make_shared<const Deviation>(read_deviation(deviation));
-    if (violation.deviation->cable_lengths_m) read_way(deviation.at("way"), result);
-  }
+  read_deviating(witness, result);
   return result;
 }
 

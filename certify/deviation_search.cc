@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "kinematics/statics.h"
+#include "kinematics/time_limits.h"
 
 namespace taut {
 namespace {
@@ -40,6 +41,34 @@ std::optional<MpInterval> deviated_at_mid(const Prover& prover, const Segment& s
   return quantity;
 }
 
+namespace {
+
+/// |L̇| of a winch at the midpoint of a box [m/s], enclosed. At the working precision, that of a rung.
+std::optional<MpInterval> winch_speed_at_mid(const ProofModel<MpInterval>& model, const Segment& segment,
+                                             const DyadicBox& box, int cable) {
+  std::optional<Moving<MpInterval>> moving = model.moving->at(model.model, segment, enclose<MpInterval>(box.mid()));
+  if (!moving) return std::nullopt;
+  model.moving->bound_rates(*moving);
+  return moving->winch_speed[static_cast<std::size_t>(cable)];
+}
+
+}  // namespace
+
+std::optional<MpInterval> deviated_power_at_mid(const Prover& prover, const Segment& segment, const DyadicBox& box,
+                                                int cable, const Deviation& deviation) {
+  const std::optional<MpInterval> tension =
+      deviated_at_mid(prover, segment, box, {MarginKind::kTensionMax, cable}, deviation);
+  if (!tension) return std::nullopt;
+  const std::size_t rung = rung_of(prover.ladder());
+  const PrecisionScope precision(prover.ladder().bits(rung));
+  Faults<MpInterval>::clear();
+  const auto speed = winch_speed_at_mid(prover.ladder().multiprecision(rung), segment, box, cable);
+  if (!speed) return std::nullopt;
+  MpInterval power = *speed * absolute(*tension);
+  if (Faults<MpInterval>::raised()) return std::nullopt;
+  return power;
+}
+
 DeviationSearch::Place DeviationSearch::place(const DyadicBox& box) const {
   Place result{prover_.sampler().rigid_pose(segment_, box.mid().approx()), prover_.sampler().model()};
   if (segment_.timing == nullptr) return result;
@@ -67,6 +96,26 @@ DyadicBox DeviationSearch::weakest_box(MarginId margin) const {
     }
   }
   return weakest;
+}
+
+DyadicBox DeviationSearch::strongest_box(RateId power) const {
+  const std::size_t rung = rung_of(prover_.ladder());
+  const PrecisionScope precision(prover_.ladder().bits(rung));
+  DyadicBox strongest;
+  double most = 0;
+  for (DyadicBox box{0, prover_.options().tolerance_depth}; box.upper() <= Dyadic{1, 0}; ++box.k) {
+    Faults<MpInterval>::clear();
+    const auto speed = winch_speed_at_mid(prover_.ladder().multiprecision(rung), segment_, box, power.cable);
+    if (!speed || Faults<MpInterval>::raised()) continue;
+    const Place at = place(box);
+    const Statics<double> found = statics(at.model, at.pose.p, Matrix3<double>(at.pose.q.toRotationMatrix()));
+    const double here = upper_bound(*speed) * limited_quantity(found, {MarginKind::kTensionMax, power.cable});
+    if (found.regular && here > most) {
+      most = here;
+      strongest = box;
+    }
+  }
+  return strongest;
 }
 
 /// Those of `margins` that the worst deviation within this share of the tolerances breaks, or for which it
@@ -129,6 +178,29 @@ std::optional<SegmentWitness> DeviationSearch::refute(const DyadicBox& box, Marg
   std::optional<SegmentWitness> witness = refute_by_smaller(box, here);
   if (!witness) has_failed_ = true;
   return witness;
+}
+
+std::optional<SegmentWitness> DeviationSearch::refute_power(const DyadicBox& box, RateId power) const {
+  const auto cable = static_cast<std::size_t>(power.cable);
+  const std::size_t rung = rung_of(prover_.ladder());
+  const PrecisionScope precision(prover_.ladder().bits(rung));
+  const ProofModel<MpInterval>& model = prover_.ladder().multiprecision(rung);
+  Faults<MpInterval>::clear();
+  const auto limit = evaluate_constant<MpInterval>(limit_of(prover_.problem().time.value(), power));
+  const auto speed = winch_speed_at_mid(model, segment_, box, power.cable);
+  if (!speed || Faults<MpInterval>::raised() || !certainly_positive(*speed)) return std::nullopt;
+  // The tension at which the power is at its limit stands in for that of the cable.
+  Place here = place(box);
+  here.model.tension_upper[cable] = std::min(here.model.tension_upper[cable], lower_bound(limit) / upper_bound(*speed));
+  for (const auto& [margin, proposed] : breaking(here, {{MarginKind::kTensionMax, power.cable}}, 1)) {
+    if (!proposed.leads_to_pose) continue;
+    const auto found = deviated_power_at_mid(prover_, segment_, box, power.cable, proposed.deviation);
+    if (!found || !certainly_nonpositive(limit - *found)) continue;
+    SegmentWitness witness = witness_of(box, margin, proposed.deviation);
+    witness.rate = power;
+    return witness;
+  }
+  return std::nullopt;
 }
 
 /// For a worst deviation that can't be followed, as on the way to a singular pose. Some limit breaks before that pose

@@ -22,8 +22,13 @@ class DeviationSearch {
   /// worst (to first order) can't be followed. Nothing if the worst breaks none.
   [[nodiscard]] std::optional<SegmentWitness> refute(const DyadicBox& box, MarginId margin);
 
+  /// Likewise for a winch's power, of a move: a deviation that tightens its cable most.
+  [[nodiscard]] std::optional<SegmentWitness> refute_power(const DyadicBox& box, RateId power) const;
+
   /// The box of tolerance_depth in whose middle an undisturbed `margin` is least, in floating point.
   [[nodiscard]] DyadicBox weakest_box(MarginId margin) const;
+  /// Likewise, in whose middle a winch needs most power.
+  [[nodiscard]] DyadicBox strongest_box(RateId power) const;
 
  private:
   /// A margin, and the deviation that is to break it.
@@ -52,5 +57,9 @@ class DeviationSearch {
 [[nodiscard]] std::optional<MpInterval> deviated_at_mid(const Prover& prover, const Segment& segment,
                                                         const DyadicBox& box, MarginId margin,
                                                         const Deviation& deviation);
+/// Likewise for the power [W] of a winch: the greatest tension there times the commanded speed.
+[[nodiscard]] std::optional<MpInterval> deviated_power_at_mid(const Prover& prover, const Segment& segment,
+                                                              const DyadicBox& box, int cable,
+                                                              const Deviation& deviation);
 
 }  // namespace taut

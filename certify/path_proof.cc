@@ -46,6 +46,7 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Seg
     return witness;
   }
   witness.slowing = found.slowing;
+  witness.deviation = found.deviation;
   const MpInterval value = prover.witnessed_quantity(segment, found);
   if (found.rate) {
     witness.rate = found.rate;
@@ -57,7 +58,6 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Seg
   const MarginId margin = found.margin;
   witness.margin = margin;
   witness.limit = limit_text(prover.problem(), margin);
-  witness.deviation = found.deviation;
   const Decimal limit = Decimal::parse(witness.limit);
   const bool is_lower = margin.kind == MarginKind::kTensionMin || margin.kind == MarginKind::kLengthMin;
   for (int digits = kWitnessDigits; digits <= kMostWitnessDigits; digits *= 2) {

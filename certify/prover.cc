@@ -248,9 +248,13 @@ SegmentSurvey Prover::survey(const Segment& segment, const std::stop_token& stop
 
 MpInterval Prover::witnessed_quantity(const Segment& segment, const SegmentWitness& witness) const {
   if (may_stop(segment)) return run(witness.slowing).witnessed_quantity(segment, witness);
-  if (witness.rate) return rate_at_mid(segment, witness.box, *witness.rate);
-  if (!witness.deviation) return margin_at_mid(segment, witness.box, witness.margin);
-  std::optional<MpInterval> quantity = deviated_at_mid(*this, segment, witness.box, witness.margin, *witness.deviation);
+  if (!witness.deviation) {
+    return witness.rate ? rate_at_mid(segment, witness.box, *witness.rate)
+                        : margin_at_mid(segment, witness.box, witness.margin);
+  }
+  std::optional<MpInterval> quantity =
+      witness.rate ? deviated_power_at_mid(*this, segment, witness.box, witness.rate->cable, *witness.deviation)
+                   : deviated_at_mid(*this, segment, witness.box, witness.margin, *witness.deviation);
   if (!quantity) throw std::logic_error("a deviation has no enclosure");
   return *std::move(quantity);
 }

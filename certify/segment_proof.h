@@ -32,7 +32,7 @@ struct SegmentWitness {
   DyadicBox box;
   std::shared_ptr<const Deviation> deviation = nullptr;  ///< of the machine whose margin it is; null: undisturbed
   std::optional<PairContact> contact = {};
-  std::optional<RateId> rate = {};      ///< that is at its limit, or beyond it, at the midpoint of `box`
+  std::optional<RateId> rate = {};      ///< at its limit or beyond it, at the midpoint of `box`
   std::optional<Slowing> slowing = {};  ///< how a move that may be slowed down is run there; none: at full speed
 };
 

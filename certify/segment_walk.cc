@@ -207,6 +207,9 @@ bool SegmentWalk::prove_in_strides() {
 std::optional<SegmentWitness> SegmentWalk::refute_elsewhere() {
   // A witness behind an inner pose is about the path only if what leads there is proved.
   if (last_verdict_.kind != BoxVerdict::Kind::kTolerance || !segment_.inner_poses.empty()) return std::nullopt;
+  if (last_verdict_.rate) {
+    return deviations_.refute_power(deviations_.strongest_box(*last_verdict_.rate), *last_verdict_.rate);
+  }
   return deviations_.refute(deviations_.weakest_box(last_verdict_.worst), last_verdict_.worst);
 }
 
@@ -274,14 +277,20 @@ SegmentWalk::Step SegmentWalk::examine_deviations(const Task& task, const BoxVer
   if (task.box.depth < prover_.options().tolerance_depth) {
     return steps_are_few && !is_proved_inside(task) ? refine : Step{Step::Kind::kSplit, verdict};
   }
-  const Step give_up{Step::Kind::kGiveUp, verdict, {}, at(Undecided::kTolerances, verdict.worst)};
+  const Step give_up{
+      Step::Kind::kGiveUp,
+      verdict,
+      {},
+      verdict.rate ? Reason{Undecided::kTolerances, " a limit of power"} : at(Undecided::kTolerances, verdict.worst)};
   // In a move the search takes longer than more steps do.
   if (steps_are_few && (aim_ == ProofAim::kProve || segment_.timing != nullptr)) return refine;
   if (aim_ == ProofAim::kProve) return give_up;
   // Once a deviation refutes the segment, only its last box is searched again: a survey states the first and the last
   // violation of a stretch, and each search is costly.
   if (deviation_refutes_ && task.box.upper() != Dyadic{1, 0}) return give_up;
-  if (auto witness = deviations_.refute(task.box, verdict.worst)) {
+  auto witness =
+      verdict.rate ? deviations_.refute_power(task.box, *verdict.rate) : deviations_.refute(task.box, verdict.worst);
+  if (witness) {
     deviation_refutes_ = true;
     return {Step::Kind::kRefuted, verdict, std::move(witness)};
   }

@@ -61,12 +61,14 @@ Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Pa
     if (!witness.deviation) {
       return quantity_of_move(machine, stated, moving(machine, problem, path, k, there, slowing), witness);
     }
-    if (rate) throw Rejected("the witness of a limit in time states a deviation");
+    if (rate && rate != RateKind::kWinchPower) throw Rejected("the witness of a limit in time states a deviation");
     const Deviant deviates = deviant(machine, problem, stated, *witness.deviation);
     const Vector6<Ball> inertia = inertia_of_deviant(machine, problem, path, k, there, slowing, deviates.geometry.pose);
     Vector6<Ball> beside = deviates.machine.wrench;
     for (std::size_t c = 0; c < 6; ++c) beside[c] -= inertia[c];
-    return quantity(deviates.machine, deviates.geometry, witness, beside);
+    const Ball found = quantity(deviates.machine, deviates.geometry, witness, beside);
+    if (!rate) return found;
+    return found * moving(machine, problem, path, k, there, slowing).winch_speed[witness.cable];
   }
   if (rate_of(witness.kind)) throw Rejected("the witness is of a limit in time, and the path has no law");
   const auto quantity_at_rest = [&](const Machine& of, const Geometry& geometry) {

@@ -25,7 +25,8 @@ namespace taut::checker {
                                   const PathPoint& place, const Box& how);
 
 /// The least or largest tension [N] or |d| [m] of the witness's cable, at its pose and for its machine; of a limit in
-/// time, the magnitude of the rate or the power (the largest tension times the speed), in SI units. @pre the witness is
+/// time, the magnitude of the rate or the power (the largest tension, for its machine, times the commanded speed), in
+/// SI units. @pre the witness is
 /// of a limit, which in time the problem states, and a path with a law has one (require_time_law)
 /// @throws Rejected where the deviation is not within the tolerances, or a load not in its item, or where a move's
 /// witness has loads; Undefined where the quantity can't be enclosed.

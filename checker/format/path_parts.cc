@@ -361,6 +361,14 @@ auto read_slowing(Witness& witness) {
   };
 }
 
+/// Of the machine that deviates, whose tensions, length or power the witness is of.
+auto read_deviating(const Problem& problem, const Path& path, Witness& witness) {
+  return [&](const Cursor& deviation) {
+    deviation.require(problem.tolerances.has_value(), "tolerances to be within");
+    witness.deviation = read_deviation(deviation, is_length_controlled(problem, path));
+  };
+}
+
 /// The rest of a witness that a limit in time is not kept. That the value lies beyond it is proved by others.
 template <class ReadMotion>
 void read_rate(const Cursor& json, RateKind rate, const Problem& problem, const Path& path,
@@ -373,7 +381,8 @@ void read_rate(const Cursor& json, RateKind rate, const Problem& problem, const 
   };
   json.object("kind", ignore, "cable", read_cable, "limit", ignore, "value", read_value_of(witness), "at",
               witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, unknowns(problem, path)),
-              "motion", read_motion, may_be_slowed(witness.kind, problem, path) ? "slowing?" : nullptr,
+              "motion", read_motion, rate == RateKind::kWinchPower ? "deviation?" : nullptr,
+              read_deviating(problem, path, witness), may_be_slowed(witness.kind, problem, path) ? "slowing?" : nullptr,
               read_slowing(witness));
   const std::optional<Expression>& limit = problem.time->of(rate, witness.cable);
   json["kind"].require(limit.has_value(), "a limit that the problem states");
@@ -425,19 +434,15 @@ Witness read_witness(const Cursor& json, const Problem& problem, const Path& pat
     return witness;
   }
   mpq_class limit;
-  const auto read_deviating = [&](const Cursor& deviation) {
-    deviation.require(problem.tolerances.has_value(), "tolerances to be within");
-    witness.deviation = read_deviation(deviation, is_length_controlled(problem, path));
-  };
   const bool is_tension = witness.kind == WitnessKind::kTensionMin || witness.kind == WitnessKind::kTensionMax;
   const bool is_at_rest = !path.timing;
   const char* const loads_key = is_tension && !problem.items.empty() && is_at_rest ? "loads?" : nullptr;
   const auto read_witness_loads = [&](const Cursor& loads) { witness.loads = read_loads(loads, problem.items); };
   json.object("kind", ignore, "cable", integer(witness.cable, 1, kCables), "limit", limit, "value",
               read_value_of(witness), "at", witness_point(witness.at, path), "proof",
-              proof(witness.at_box, witness.at, n), "motion", read_motion, "deviation?", read_deviating, loads_key,
-              read_witness_loads, may_be_slowed(witness.kind, problem, path) ? "slowing?" : nullptr,
-              read_slowing(witness));
+              proof(witness.at_box, witness.at, n), "motion", read_motion, "deviation?",
+              read_deviating(problem, path, witness), loads_key, read_witness_loads,
+              may_be_slowed(witness.kind, problem, path) ? "slowing?" : nullptr, read_slowing(witness));
   --witness.cable;
   require_violation(json, limit, problem, witness);
   return witness;

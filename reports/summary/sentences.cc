@@ -130,6 +130,16 @@ std::string singular_details(const ReportContext& scene, const PathWitness& witn
       from, to);
 }
 
+/// " The machine there is not quite the stated one …", where that is so.
+std::string machine_sentence(const PathWitness& witness) {
+  if (!witness.deviation) return "";
+  return fmt::format(
+      " The machine there is not quite the stated one: it deviates within the tolerances, as the certificate says{}.",
+      witness.deviation->cable_lengths_m
+          ? ", and it is at the pose to which that and the lengths of its cables lead from this one"
+          : "");
+}
+
 /// By how much a limit of a rate is broken, and where.
 std::string rate_details(const ReportContext& scene, const PathWitness& witness) {
   const Problem& problem = scene.certificate.problem;
@@ -139,8 +149,8 @@ std::string rate_details(const ReportContext& scene, const PathWitness& witness)
                              ? fmt::format("It is beyond the limit by at least {} % of it.", rounded_down(beyond, 2))
                              : "It is at the limit or beyond it, and the limit itself is excluded.";
   const double at = position(witness.at);
-  return fmt::format("{} Where: {}. The pose there, rounded: {}.", by, place_text(scene, at),
-                     pose_text(scene, scene.sampler.at(scene.certificate.path, at).pose));
+  return fmt::format("{} Where: {}. The pose there, rounded: {}.{}", by, place_text(scene, at),
+                     pose_text(scene, scene.sampler.at(scene.certificate.path, at).pose), machine_sentence(witness));
 }
 
 /// By how much a limit is broken, where, and on which machine.
@@ -155,17 +165,9 @@ std::string limit_details(const ReportContext& scene, const PathWitness& witness
     by = fmt::format("It is beyond the limit by at least {} {}{}", unit.down(beyond, 3), unit.name(),
                      limit > 0 ? fmt::format(", {} % of it.", rounded_down(100 * beyond / limit, 2)) : ".");
   }
-  std::string machine;
-  if (witness.deviation) {
-    machine = fmt::format(
-        " The machine there is not quite the stated one: it deviates within the tolerances, as the certificate says{}.",
-        witness.deviation->cable_lengths_m
-            ? ", and it is at the pose to which that and the lengths of its cables lead from this one"
-            : "");
-  }
   const double at = position(witness.at);
   return fmt::format("{} Where: {}. The pose there, rounded: {}.{}", by, place_text(scene, at),
-                     pose_text(scene, scene.sampler.at(scene.certificate.path, at).pose), machine);
+                     pose_text(scene, scene.sampler.at(scene.certificate.path, at).pose), machine_sentence(witness));
 }
 
 /// How deep, where on the path and at which points two bodies are too near: in floating point but for the place.

@@ -219,7 +219,8 @@ std::string rate_violation_text(const PathWitness& witness, const Problem& probl
     case RateKind::kWinchAcceleration:
       return fmt::format("the winch of cable {} would accelerate by {} or more{}", cable, value, limit);
     case RateKind::kWinchPower:
-      return fmt::format("the winch of cable {} would need a power of {} or more{}", cable, value, limit);
+      return fmt::format("the winch of cable {}{} would need a power of {} or more{}", cable,
+                         witness.deviation ? ", on a machine that deviates within the tolerances," : "", value, limit);
     case RateKind::kLoadSpeed: return fmt::format("the load point would move at {} or more{}", value, limit);
     case RateKind::kLoadAcceleration:
       return fmt::format("the load point would accelerate by {} or more{}", value, limit);

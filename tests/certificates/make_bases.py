@@ -1405,6 +1405,20 @@ def moves():
         'kind': 'tension_min', 'at': {'segment': 0, 's': str(Fraction(z))}, 'cable': i + 1, 'limit': limit,
         'value': enclosing(low, 0.034), 'deviation': stated})
 
+    # Its cables pull harder there, wound at the speed that is commanded.
+    strong = with_tolerances(lifted('robot2-strong', typed(a, m, b), load_speed_m_s='10'), base_anchor_m=['0.001'] * 6,
+                             position_m='0.01', orientation_rad='0.2')
+    speeds = as_stated.rates()['winch_speed']
+    _, i = max(((after[1] - before[1]) * speed, i) for i, (before, after, speed) in
+               enumerate(zip(as_stated.extremes(), there.extremes(), speeds)))
+    before, after = (moment.extremes()[i][1] * speeds[i] for moment in (as_stated, there))
+    assert after > 1.02 * before > 0, (before, after)
+    strong['time']['winch_power_W'] = ['%.6f' % ((before + after) / 2) if k == i else None for k in range(6)]
+    yield 'refuted_power_of_a_deviation', certificate(strong, calm, 'refuted', version=6, witness={
+        'kind': 'winch_power', 'at': {'segment': 0, 's': str(Fraction(z))}, 'cable': i + 1,
+        'limit': strong['time']['winch_power_W'][i], 'value': ['%.6e' % (after * x) for x in (0.985, 1.015)],
+        'deviation': stated})
+
 
 # ---- legs -----------------------------------------------------------------------------------------------------------
 

@@ -687,6 +687,7 @@ TEST(KernelMoving, ARateIsConfirmedOnlyWhereItIsNotBelowItsLimit) {
     witness.loads.emplace();
     EXPECT_THROW((void)witnessed_quantity(Machine(any), any, path, witness), Rejected);
     witness.loads.reset();
+    if (kind == WitnessKind::kWinchPower) continue;  // of which the machine may deviate
     witness.deviation.emplace();
     EXPECT_THROW((void)witnessed_quantity(Machine(any), any, path, witness), Rejected);
   }

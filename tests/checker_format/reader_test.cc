@@ -766,7 +766,7 @@ TEST(Reader, NamesWhatIsWrongWithTheWitnessOfAMove) {
                    {"/witness/limit", nullptr, "witness.limit: expected a string"},
                    {"/witness/value", {"4e3", "3e3"}, "witness.value: expected ends in order"},
                    {"/witness/proof", kRemoved, "witness: expected the key 'proof'"},
-                   {"/witness/deviation", {{"wrench", "1"}}, "witness: expected no key 'deviation'"},
+                   {"/witness/deviation", {{"wrench", "1"}}, "witness.deviation: expected tolerances to be within"},
                    {"/witness/loads", loads, "witness: expected no key 'loads'"}});
   Json of_tension = refuted_move();
   of_tension["witness"] = witness();
