@@ -1405,19 +1405,30 @@ def moves():
         'kind': 'tension_min', 'at': {'segment': 0, 's': str(Fraction(z))}, 'cable': i + 1, 'limit': limit,
         'value': enclosing(low, 0.034), 'deviation': stated})
 
-    # Its cables pull harder there, wound at the speed that is commanded.
-    strong = with_tolerances(lifted('robot2-strong', typed(a, m, b), load_speed_m_s='10'), base_anchor_m=['0.001'] * 6,
-                             position_m='0.01', orientation_rad='0.2')
+    # Another one, turned by less: its cables pull harder there, wound at the speed that is commanded.
+    u = [0.01, -0.008, 0.012]
+    deviation = {('position_m', None): [0.0006, -0.0008, 0.0004],
+                 ('orientation_rad', None): [2 * atan(size(u)) / size(u) * x for x in u]}
+    strong = with_tolerances(lifted('robot2-strong', typed(a, m, b), load_speed_m_s='10'), position_m='0.0012',
+                             orientation_rad='0.036')
+    strong['load']['items'][0]['weight'].update(mass_kg=['0.6', '0.6'], at_tolerance_m='0')  # one moment of inertia
+    as_stated = Moment(strong, calm, z, rate, change)
+    other, (p, R) = deviant(strong, as_stated.frames[1], deviation)
+    own, off = times(list(zip(*R0)), R), plus(p, p0, -1)
+    there = Moment(other, calm, z, rate, change)
+    there.frames = [(plus(q, off), times(S, own)) for q, S in as_stated.frames]
     speeds = as_stated.rates()['winch_speed']
-    _, i = max(((after[1] - before[1]) * speed, i) for i, (before, after, speed) in
-               enumerate(zip(as_stated.extremes(), there.extremes(), speeds)))
-    before, after = (moment.extremes()[i][1] * speeds[i] for moment in (as_stated, there))
-    assert after > 1.02 * before > 0, (before, after)
-    strong['time']['winch_power_W'] = ['%.6f' % ((before + after) / 2) if k == i else None for k in range(6)]
+    powers = [[moment.extremes()[i][1] * speeds[i] for moment in (as_stated, there)] for i in range(6)]
+    i = max(range(6), key=lambda k: powers[k][1] / powers[k][0])
+    before, after = powers[i]
+    assert after > 1.01 * before > 0, (before, after)
+    limit = '%.6f' % ((before + after) / 2)
+    strong['time']['winch_power_W'] = [limit if k == i else None for k in range(6)]
+    stated = dict(stated, base_anchors_m=[['0'] * 3] * 6, position_m=['0.0006', '-0.0008', '0.0004'],
+                  turn=[str(x) for x in u])
     yield 'refuted_power_of_a_deviation', certificate(strong, calm, 'refuted', version=6, witness={
-        'kind': 'winch_power', 'at': {'segment': 0, 's': str(Fraction(z))}, 'cable': i + 1,
-        'limit': strong['time']['winch_power_W'][i], 'value': ['%.6e' % (after * x) for x in (0.985, 1.015)],
-        'deviation': stated})
+        'kind': 'winch_power', 'at': {'segment': 0, 's': str(Fraction(z))}, 'cable': i + 1, 'limit': limit,
+        'value': ['%.6e' % (after * x) for x in (0.998, 1.002)], 'deviation': stated})
 
 
 # ---- legs -----------------------------------------------------------------------------------------------------------
