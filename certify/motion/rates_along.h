@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How fast winches and load go along a part of a segment, whatever the law in time.
 //
-// A length L_i, the place of the load point and the turning of the platform have by s a rate f, and f' = g, g' = h. By
-// time that is f ṡ, which changes at f s̈ + g ṡ². All are enclosed over the part, and f and g once more at its middle m:
-// by Taylor's theorem, for each component,
+// A length L_i, the place of the load point and the turning of the platform have by s a rate f, and f' = g, g' = h.
+// By time that is f ṡ, which changes at f s̈ + g ṡ². All are enclosed over the part, and f and g once more at its
+// middle m: by Taylor's theorem, for each component,
 //   f(s) is in f(m) + (s − m) (g(m) + (s − m)/2 h),   g(s) in g(m) + (s − m) h,
-// so that both are known more sharply on any piece of the part than over all of it. What a move asks for at parts of the
-// times at which it is there needs no new enclosure of poses.
+// so that both are known more sharply on any piece of the part than over all of it. What a move asks for at parts of
+// the times at which it is there needs no new enclosure of poses.
 // docs/theory.md, "Parts of a box".
 #pragma once
 
