@@ -83,39 +83,37 @@ DeviationSearch::Place DeviationSearch::place(const DyadicBox& box) const {
   return result;
 }
 
-DyadicBox DeviationSearch::weakest_box(MarginId margin) const {
-  DyadicBox weakest;
+template <class F>
+DyadicBox DeviationSearch::least_box(F left) const {
+  DyadicBox result;
   double least = std::numeric_limits<double>::infinity();
   for (DyadicBox box{0, prover_.options().tolerance_depth}; box.upper() <= Dyadic{1, 0}; ++box.k) {
     const Place at = place(box);
     const Statics<double> found = statics(at.model, at.pose.p, Matrix3<double>(at.pose.q.toRotationMatrix()));
-    const double here = slack(at.model, limited_quantity(found, margin), margin);
+    const double here = left(box, at, found);
     if (found.regular && here < least) {
       least = here;
-      weakest = box;
+      result = box;
     }
   }
-  return weakest;
+  return result;
+}
+
+DyadicBox DeviationSearch::weakest_box(MarginId margin) const {
+  return least_box([&](const DyadicBox&, const Place& at, const Statics<double>& found) {
+    return slack(at.model, limited_quantity(found, margin), margin);
+  });
 }
 
 DyadicBox DeviationSearch::strongest_box(RateId power) const {
   const std::size_t rung = rung_of(prover_.ladder());
   const PrecisionScope precision(prover_.ladder().bits(rung));
-  DyadicBox strongest;
-  double most = 0;
-  for (DyadicBox box{0, prover_.options().tolerance_depth}; box.upper() <= Dyadic{1, 0}; ++box.k) {
+  return least_box([&](const DyadicBox& box, const Place&, const Statics<double>& found) {
     Faults<MpInterval>::clear();
     const auto speed = winch_speed_at_mid(prover_.ladder().multiprecision(rung), segment_, box, power.cable);
-    if (!speed || Faults<MpInterval>::raised()) continue;
-    const Place at = place(box);
-    const Statics<double> found = statics(at.model, at.pose.p, Matrix3<double>(at.pose.q.toRotationMatrix()));
-    const double here = upper_bound(*speed) * limited_quantity(found, {MarginKind::kTensionMax, power.cable});
-    if (found.regular && here > most) {
-      most = here;
-      strongest = box;
-    }
-  }
-  return strongest;
+    if (!speed || Faults<MpInterval>::raised()) return std::numeric_limits<double>::infinity();
+    return -(upper_bound(*speed) * limited_quantity(found, {MarginKind::kTensionMax, power.cable}));
+  });
 }
 
 /// Those of `margins` that the worst deviation within this share of the tolerances breaks, or for which it

@@ -41,6 +41,9 @@ class DeviationSearch {
     Model<double> model;
   };
   [[nodiscard]] Place place(const DyadicBox& box) const;
+  /// The box of tolerance_depth for which `left`, of its middle, is least.
+  template <class F>
+  [[nodiscard]] DyadicBox least_box(F left) const;
   [[nodiscard]] std::vector<Proposal> breaking(const Place& place, const std::vector<MarginId>& margins,
                                                double share) const;
   [[nodiscard]] Outcome attempt(const DyadicBox& box, const Proposal& proposal) const;

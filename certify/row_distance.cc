@@ -11,7 +11,6 @@
 #include "certify/arithmetic/interval.h"
 #include "kinematics/geometry.h"
 #include "kinematics/model.h"
-#include "kinematics/moving_load.h"
 #include "kinematics/quaternion.h"
 
 namespace taut {
@@ -67,12 +66,10 @@ struct RowDistances::Enclosures {
 
   /// By how much a cable's length differs from that of the row, at most.
   [[nodiscard]] double length_off(const EnclosedPose& move, const RowPose& row) const {
+    const CableGeometry<Interval> geometry = cable_geometry(model, move.p, move.r);
     double most = 0;
     for (std::size_t i = 0; i < kCables; ++i) {
-      const Vector3<Interval> arm = turned(move.r, model.p_PB[i]);
-      Vector3<Interval> d;
-      for (int k = 0; k < 3; ++k) d(k) = move.p(k) + arm(k) - model.p_WA[i](k);
-      const double off = magnitude(euclidean_norm(d(0), d(1), d(2)) - around(row.x[i]));
+      const double off = magnitude(length(geometry.p_AB_W[i]) - around(row.x[i]));
       if (!std::isfinite(off)) return off;
       most = std::max(most, off);
     }

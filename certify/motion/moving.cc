@@ -65,7 +65,7 @@ template <class I>
 auto MovingModel<I>::middle_of_times(const RatesAlong<I>& along, const Part& part) -> std::optional<Middle> {
   const Segment& segment = along.segment();
   const I index(static_cast<double>(segment.index));
-  const std::optional<LawInstant<I>> time = law_instant(*segment.timing, part.times, I(index + part.here));
+  const std::optional<LawInstant<I>> time = law_instant(*segment.timing, part.times, on_path(segment, part.here));
   if (!time) return std::nullopt;
   // Beside the index, a number of the range may have been rounded: the place has to be in what accelerations are of.
   const I place = time->place - index;
