@@ -730,14 +730,16 @@ void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure
   const BodiesBox<I> box = bodies_box(problem, enclosure);
   const BodyGaps<I> gaps(box);
   if (!gaps.have_cables_length()) verdict.kind = BoxVerdict::Kind::kNear;
-  std::vector<std::pair<double, std::size_t>> order;  // of the pairs, by rough bounds: the nearest may well come first
+  using RoughBound = std::pair<double, std::size_t>;
+  std::vector<RoughBound> order;  // a heap, the least on top: the nearest pair may well come first
   order.reserve(directions.single.size());
   for (std::size_t n = 0; n < directions.single.size(); ++n) {
     const double rough = gaps.rough(problem.bodies->pairs[n], directions.single[n]);
     order.emplace_back(rough > 0 ? rough : 0.0, n);  // not a NaN
   }
-  std::ranges::sort(order);
-  for (const auto& [rough, n] : order) {
+  for (std::ranges::make_heap(order, std::greater<>()); !order.empty(); order.pop_back()) {
+    std::ranges::pop_heap(order, std::greater<>());
+    const auto [rough, n] = order.back();
     const CheckedPair<I>& pair = problem.bodies->pairs[n];
     // Of a pair that is farther apart than another one, nothing more is asked.
     if (rough > 0 && rough >= verdict.clearance_m) break;

@@ -40,7 +40,7 @@ Vector3<S> placed_point(const Vector3<S>& at, const std::optional<Matrix3<S>>& r
   return placed;
 }
 
-/// Finds the ball around the body's points.
+/// Finds the ball and the box around the body's points.
 template <class S>
 void surround(ConvexBody<S>& body) {
   // Around the first point and the last, which of a box are opposite corners.
@@ -51,6 +51,13 @@ void surround(ConvexBody<S>& body) {
   for (const Vector3<S>& x : body.points) {
     const Vector3<S>& c = body.centre;
     body.reach = larger(body.reach, S(euclidean_norm(x(0) - c(0), x(1) - c(1), x(2) - c(2)) + body.radius));
+  }
+  body.lowest = body.highest = body.points.front();
+  for (const Vector3<S>& x : body.points) {
+    for (int i = 0; i < 3; ++i) {
+      body.lowest(i) = -larger(S(-body.lowest(i)), S(-x(i)));
+      body.highest(i) = larger(body.highest(i), x(i));
+    }
   }
 }
 

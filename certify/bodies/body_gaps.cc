@@ -36,6 +36,18 @@ BodyGaps<I, Slope>::BodyGaps(const BodiesBox<I, Slope>& box) : box_(box) {
       cut_[i].share[end].tighten(box.offset);
     }
   }
+  const auto range_in_world = [&](const Vector3<I>& x_P) {
+    Vector3<I> x;
+    for (int k = 0; k < 3; ++k) {
+      x(k) = box.p_WP(k).range + box.r_WP(k, 0).range * x_P(0) + box.r_WP(k, 1).range * x_P(1) +
+             box.r_WP(k, 2).range * x_P(2);
+    }
+    return x;
+  };
+  for (std::size_t i = 0; i < kCables; ++i) platform_anchors_[i] = range_in_world(box.model.p_PB[i]);
+  for (const ConvexBody<I>& body : box.bodies.platform) {
+    platform_bodies_.push_back(range_in_world(box_around(body)));
+  }
 }
 
 template <class I, class Slope>
@@ -57,6 +69,9 @@ typename BodyGaps<I, Slope>::Turned BodyGaps<I, Slope>::turned(const std::array<
 /// Whether a pair is told apart in the platform's axes.
 template <class I, class Slope>
 bool BodyGaps<I, Slope>::is_in_platform(const CheckedPair<I>& pair, const Direction& direction) const {
+  if (pair.kind == PairClass::kCablesPlatform && !direction.in_platform) {
+    throw std::logic_error("a cable and the platform are compared in the platform's axes");
+  }
   return direction.in_platform && pair.kind != PairClass::kCablesObstacles && half_space(box_.bodies, pair) == nullptr;
 }
 
@@ -138,11 +153,8 @@ typename BodyGaps<I, Slope>::Projections BodyGaps<I, Slope>::first(const Checked
 template <class I, class Slope>
 std::array<I, 3> BodyGaps<I, Slope>::vector(const CheckedPair<I>& pair, const Direction& direction) const {
   if (const auto* half = half_space(box_.bodies, pair)) return {half->normal(0), half->normal(1), half->normal(2)};
-  if (pair.kind == PairClass::kCablesPlatform && !direction.in_platform) {
-    throw std::logic_error("a cable and the platform are compared in the platform's axes");
-  }
-  const auto component = [&](std::size_t k) { return I(static_cast<double>(direction.u[k])); };
-  return {component(0), component(1), component(2)};
+  const std::array<double, 3> u = components(direction);
+  return {I(u[0]), I(u[1]), I(u[2])};
 }
 
 template <class I, class Slope>
@@ -187,32 +199,48 @@ I BodyGaps<I, Slope>::radii(const CheckedPair<I>& pair) const {
 template <class I, class Slope>
 double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& direction) const {
   if (pair.kind == PairClass::kExitCones) return -std::numeric_limits<double>::infinity();  // along() is quick
-  const bool in_platform = is_in_platform(pair, direction);
-  const std::array<I, 3> u = vector(pair, direction);
-  std::array<I, 3> other;
-  for (int k = 0; k < 3; ++k) {
-    const auto entry = [&](int i) { return (in_platform ? box_.r_WP(k, i) : box_.r_WP(i, k)).range; };
-    other[static_cast<std::size_t>(k)] = entry(0) * u[0] + entry(1) * u[1] + entry(2) * u[2];
+  if (half_space(box_.bodies, pair) != nullptr) return rough(pair, vector(pair, direction), false);
+  return rough(pair, components(direction), is_in_platform(pair, direction));
+}
+
+template <class I, class Slope>
+template <class Number>
+double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const std::array<Number, 3>& u, bool in_platform) const {
+  std::array<I, 3> u_W;
+  for (int k = 0; in_platform && k < 3; ++k) {
+    u_W[static_cast<std::size_t>(k)] =
+        times(u[0], box_.r_WP(k, 0).range) + times(u[1], box_.r_WP(k, 1).range) + times(u[2], box_.r_WP(k, 2).range);
   }
-  const auto& v = in_platform ? other : u;
-  const I of_origin = v[0] * box_.p_WP(0).range + v[1] * box_.p_WP(1).range + v[2] * box_.p_WP(2).range;
-  Upper lost(0.0);  // to deviations
-  // From where to where a cable reaches along u.
-  const auto cable_range = [&](std::size_t i) {
-    const auto shifts = end_shifts(pair, i, in_platform);
-    lost += shifts[0] + shifts[1];
-    const Vector3<I>& a = box_.model.p_WA[i];
-    const Vector3<I>& b = box_.model.p_PB[i];
-    return in_platform ? hull(dot(other, a) - of_origin, dot(u, b)) : hull(dot(u, a), of_origin + dot(other, b));
+  // Where things of W are along u, in the axes of the platform.
+  const auto in_axes_of_platform = [&](const Vector3<I>& x) {
+    Vector3<I> from_origin;
+    for (int k = 0; k < 3; ++k) from_origin(k) = x(k) - box_.p_WP(k).range;
+    return dot(u_W, from_origin);
   };
-  I first, second, radii(0.0);
+  Upper lost(0.0);  // to deviations
+  // From where to where a cable's checked part reaches along u.
+  const auto cable_range = [&](std::size_t i) {
+    if (box_.tolerance != nullptr) {
+      const auto shifts = end_shifts(pair, i, in_platform);
+      lost += shifts[0] + shifts[1];
+    }
+    const Vector3<I>& a = box_.model.p_WA[i];
+    std::array<I, 2> ends{in_platform ? in_axes_of_platform(a) : dot(u, a),
+                          dot(u, in_platform ? box_.model.p_PB[i] : platform_anchors_[i])};
+    const I along = ends[1] - ends[0];
+    if (box_.bodies.is_cut[i][0]) ends[0] = ends[0] + cut_[i].share[0].range * along;
+    if (box_.bodies.is_cut[i][1]) ends[1] = ends[1] - cut_[i].share[1].range * along;
+    return hull(ends[0], ends[1]);
+  };
+  I first, second;
+  I radii(0.0);
   if (pair.kind == PairClass::kPlatformObstacles) {
     const ConvexBody<I>& body = box_.bodies.platform[pair.first];
     if (box_.tolerance != nullptr && !in_platform) {
       lost += position_ + turn_ * (norm_above(body.centre) + above(body.reach));
     }
-    first = in_platform ? dot(u, body.centre) : of_origin + dot(other, body.centre);
-    radii = body.reach;
+    first = in_platform ? dot(u, box_around(body)) : dot(u, platform_bodies_[pair.first]);
+    radii = body.radius;
   } else {
     first = cable_range(pair.first);
     radii = box_.bodies.cable_radius[pair.first];
@@ -226,10 +254,10 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& di
     const ConvexBody<I>& body = second_hull(box_.bodies, pair);
     const bool is_moving = in_platform && pair.kind == PairClass::kPlatformObstacles;
     if (is_moving && box_.tolerance != nullptr) lost += obstacle_shift(body.centre) + turn_ * above(body.reach);
-    second = is_moving ? dot(other, body.centre) - of_origin : dot(u, body.centre);
-    radii = radii + body.reach;
+    second = is_moving ? in_axes_of_platform(box_around(body)) : dot(u, box_around(body));
+    radii = radii + body.radius;
   }
-  const I gap = (first - second) / euclidean_norm(u[0], u[1], u[2]) - radii - required(pair, false).at_most;
+  const I gap = (first - second) / norm_of<I>(u) - radii - required(pair, false).at_most;
   return lower_bound(I(gap + ProofScalarTraits<I>::symmetric(lost)));
 }
 

@@ -127,7 +127,7 @@ class BodyGaps {
   [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair) const;
   /// Whether one of its bodies is a mesh.
   [[nodiscard]] bool has_mesh(const CheckedPair<I>& pair) const;
-  /// The same from ranges alone, of balls around bodies and of whole cables: a lower bound, for pairs that are far
+  /// The same from ranges alone, of boxes around bodies and of whole cables: a lower bound, for pairs that are far
   /// apart.
   [[nodiscard]] double rough(const CheckedPair<I>& pair, const Direction& direction) const;
 
@@ -182,6 +182,8 @@ class BodyGaps {
   [[nodiscard]] Form in_cone(const CheckedPair<I>& pair) const;
   /// Of the pair on T, or at m.
   [[nodiscard]] RequiredDistance<I> required(const CheckedPair<I>& pair, bool only_at_mid) const;
+  template <class Number>
+  [[nodiscard]] double rough(const CheckedPair<I>& pair, const std::array<Number, 3>& u, bool in_platform) const;
   /// The sum of both bodies' radii.
   [[nodiscard]] I radii(const CheckedPair<I>& pair) const;
   [[nodiscard]] const PlacedMesh<I>* mesh(const CheckedPair<I>& pair, bool is_first) const;
@@ -194,6 +196,8 @@ class BodyGaps {
   Upper position_{}, turn_{};                       ///< of the platform, by deviations
   std::array<Upper, kCables> base_{}, platform_{};  ///< tolerances of anchors
   std::array<Cut, kCables> cut_;
+  std::array<Vector3<I>, kCables> platform_anchors_;               ///< in W, anywhere in T
+  boost::container::small_vector<Vector3<I>, 4> platform_bodies_;  ///< boxes around their points, in W, likewise
   bool have_length_ = true;
 };
 

@@ -33,6 +33,22 @@ I dot(const std::array<I, 3>& x, const Vector3<I>& y) {
   return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
 }
 
+/// A product with an exact number, or with another.
+inline Interval times(double x, const Interval& y) { return x * y; }
+template <class I>
+I times(double x, const I& y) {
+  return I(x) * y;
+}
+template <class I>
+I times(const I& x, const I& y) {
+  return x * y;
+}
+
+template <class I>
+I dot(const std::array<double, 3>& x, const Vector3<I>& y) {
+  return times(x[0], y(0)) + times(x[1], y(1)) + times(x[2], y(2));
+}
+
 template <class I, class Slope>
 SlopeForm<I, Slope> dot(const std::array<SlopeForm<I, Slope>, 3>& x, const Vector3<I>& y) {
   return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
@@ -46,6 +62,29 @@ bool is_of_obstacle(const CheckedPair<I>& pair) {
 template <class I>
 const HalfSpace<I>* half_space(const BodyModel<I>& bodies, const CheckedPair<I>& pair) {
   return is_of_obstacle(pair) ? std::get_if<HalfSpace<I>>(&bodies.obstacles[pair.second]) : nullptr;
+}
+
+inline std::array<double, 3> components(const Direction& direction) {
+  return {static_cast<double>(direction.u[0]), static_cast<double>(direction.u[1]),
+          static_cast<double>(direction.u[2])};
+}
+
+template <class I>
+I norm_of(const std::array<I, 3>& u) {
+  return euclidean_norm(u[0], u[1], u[2]);
+}
+/// Of components of a direction: their squares are exact, and so is the sum.
+template <class I>
+I norm_of(const std::array<double, 3>& u) {
+  return sqrt(I(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+}
+
+/// Contains the body's points.
+template <class I>
+Vector3<I> box_around(const ConvexBody<I>& body) {
+  Vector3<I> result;
+  for (int k = 0; k < 3; ++k) result(k) = hull(body.lowest(k), body.highest(k));
+  return result;
 }
 
 /// The second body of a pair that is a hull.

@@ -293,18 +293,33 @@ std::vector<std::int64_t> rounded_shares(std::span<const double> shares) {
   return result;
 }
 
+/// std::gcd of two numbers from 0 to Direction::kCoarse, asked for again and again.
+int common_divisor(int a, int b) {
+  constexpr std::size_t kSize = Direction::kCoarse + 1;
+  constexpr auto kTable = [] {
+    std::array<std::array<std::int8_t, kSize>, kSize> table{};
+    for (std::size_t i = 0; i < kSize; ++i) {
+      for (std::size_t j = 0; j < kSize; ++j) table[i][j] = static_cast<std::int8_t>(std::gcd(i, j));
+    }
+    return table;
+  }();
+  const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+  return i < kSize && j < kSize ? kTable[i][j] : std::gcd(a, b);
+}
+
 /// @returns one along z where `along` has no direction.
 Direction rounded_direction(const Point& along, bool in_platform, int largest) {
   const double size = along.cwiseAbs().maxCoeff();
   if (!along.allFinite() || !(size > 0)) return {in_platform, {0, 0, 1}};
-  const Point scaled = (along / size) * largest;
+  const Point scaled = along * (largest / size);
   Direction result{in_platform, {}};
   int divisor = 0;
   for (int k = 0; k < 3; ++k) {
     const int x = static_cast<int>(scaled(k) < 0 ? scaled(k) - 0.5 : scaled(k) + 0.5);
     result.u[static_cast<std::size_t>(k)] = x;
-    divisor = std::gcd(divisor, x);
+    divisor = common_divisor(divisor, std::abs(x));
   }
+  if (divisor == 1) return result;
   for (int& x : result.u) x /= divisor;
   return result;
 }
@@ -510,14 +525,31 @@ Point between_segments(const Line& first, const Line& second) {
   return (first[0] + s * (first[1] - first[0])) - (second[0] + t * (second[1] - second[0]));
 }
 
+/// All between two corners.
+struct AlignedBox {
+  Point lowest, highest;
+};
+
+AlignedBox box_around(const Line& line) { return {line[0].cwiseMin(line[1]), line[0].cwiseMax(line[1])}; }
+
+/// The shortest one, from the second to the first; 0 if they meet.
+Point between_boxes(const AlignedBox& first, const AlignedBox& second) {
+  const Point zero(0, 0, 0);
+  return (first.lowest - second.highest).cwiseMax(zero) - (second.lowest - first.highest).cwiseMax(zero);
+}
+
 }  // namespace
 
-/// Where the platform is, the checked parts of cables, and the middles of bodies, in W.
+/// Where the platform is, the checked parts of cables, and the middles of bodies and boxes around them, in W.
 struct BodySampler::Sketch {
+  struct Body {
+    Point middle;
+    AlignedBox box;
+  };
   Point p_WP;
   Matrix3<double> r_WP;
   std::array<Line, kCables> cables;
-  std::vector<Point> middles;  ///< of the platform's bodies
+  FewOf<Body> bodies;  ///< the platform's
 };
 
 BodySampler::Sketch BodySampler::sketch(const Model<double>& model, const RigidPose& pose) const {
@@ -526,7 +558,9 @@ BodySampler::Sketch BodySampler::sketch(const Model<double>& model, const RigidP
     result.cables[i] = cable_ends(bodies_, model.p_WA[i], pose.p + result.r_WP * model.p_PB[i], i);
   }
   for (const ConvexBody<double>& body : bodies_.platform) {
-    result.middles.emplace_back(pose.p + result.r_WP * body.centre);
+    const Point middle = pose.p + result.r_WP * (0.5 * (body.lowest + body.highest));
+    const Point half = result.r_WP.cwiseAbs() * (0.5 * (body.highest - body.lowest));
+    result.bodies.push_back({pose.p + result.r_WP * body.centre, {middle - half, middle + half}});
   }
   return result;
 }
@@ -534,10 +568,37 @@ BodySampler::Sketch BodySampler::sketch(const Model<double>& model, const RigidP
 /// Between about the nearest points of a pair, from the second to the first, in W. @pre no half-space, no exit cone
 BodySampler::RoughGap BodySampler::rough_gap(const Sketch& at, std::size_t n) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
+  const RoughGap of_boxes = gap_of_aligned_boxes(at, n);
+  if (pair.kind == PairClass::kPlatformObstacles && of_boxes.gap > 0) return of_boxes;
+  const RoughGap of_balls = gap_of_balls(at, n);
+  return of_boxes.gap > of_balls.gap ? of_boxes : of_balls;
+}
+
+BodySampler::RoughGap BodySampler::gap_of_aligned_boxes(const Sketch& at, std::size_t n) const {
+  const CheckedPair<double>& pair = bodies_.pairs.at(n);
+  if (pair.kind == PairClass::kCablesCables) return {};
+  const bool is_of_platform = pair.kind == PairClass::kPlatformObstacles;
+  const AlignedBox first = is_of_platform ? at.bodies[pair.first].box : box_around(at.cables[pair.first]);
+  AlignedBox second;
+  if (pair.kind == PairClass::kCablesPlatform) {
+    second = at.bodies[pair.second].box;
+  } else {
+    const auto& body = std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]);
+    second = {body.lowest, body.highest};
+  }
+  const Point apart = between_boxes(first, second);
+  const bool is_along_an_axis = (apart.array() != 0).count() == 1;  // which is not rounded
+  const double size = (first.highest - first.lowest + second.highest - second.lowest).lpNorm<1>();
+  return {apart, apart.norm() - radii(bodies_, pair) - pair.clearance,
+          is_along_an_axis ? 0 : size / (2 * Direction::kCoarse)};
+}
+
+BodySampler::RoughGap BodySampler::gap_of_balls(const Sketch& at, std::size_t n) const {
+  const CheckedPair<double>& pair = bodies_.pairs.at(n);
   Line first, second;
   double needed = pair.clearance;
   if (pair.kind == PairClass::kPlatformObstacles) {
-    first.fill(at.middles[pair.first]);
+    first.fill(at.bodies[pair.first].middle);
     needed += bodies_.platform[pair.first].reach;
   } else {
     first = at.cables[pair.first];
@@ -547,7 +608,7 @@ BodySampler::RoughGap BodySampler::rough_gap(const Sketch& at, std::size_t n) co
     second = at.cables[pair.second];
     needed += bodies_.cable_radius[pair.second];
   } else if (pair.kind == PairClass::kCablesPlatform) {
-    second.fill(at.middles[pair.second]);
+    second.fill(at.bodies[pair.second].middle);
     needed += bodies_.platform[pair.second].reach;
   } else {
     const auto& body = std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]);
@@ -560,9 +621,9 @@ BodySampler::RoughGap BodySampler::rough_gap(const Sketch& at, std::size_t n) co
   return {apart, apart.norm() - needed, size / (2 * Direction::kCoarse)};
 }
 
-Direction BodySampler::rough_direction(const Sketch& at, std::size_t n, const Point& apart) const {
+Direction BodySampler::rough_direction(const Sketch& at, std::size_t n, const Point& apart, int largest) const {
   const bool in_platform = is_best_in_platform(bodies_.pairs.at(n));
-  return rounded_direction(in_platform ? Point(at.r_WP.transpose() * apart) : apart, in_platform, Direction::kCoarse);
+  return rounded_direction(in_platform ? Point(at.r_WP.transpose() * apart) : apart, in_platform, largest);
 }
 
 Direction BodySampler::rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
@@ -599,7 +660,7 @@ PairDirections BodySampler::first_directions(const Model<double>& model, const R
                                              const std::array<RigidPose, 2>& ends) const {
   constexpr int kMostSharpened = 3;
   const Sketch at_middle = sketch(model, middle);
-  const std::array<Sketch, 2> at_ends{sketch(model, ends[0]), sketch(model, ends[1])};
+  std::optional<std::array<Sketch, 2>> at_ends;  // where all are far apart they are not asked for
   const double most = most_lost(model, middle);
   double moved = 0;
   for (const RigidPose& end : ends) {
@@ -610,11 +671,17 @@ PairDirections BodySampler::first_directions(const Model<double>& model, const R
   std::vector<double> gaps(bodies_.pairs.size(), std::numeric_limits<double>::infinity());
   std::vector<bool> is_sharp(bodies_.pairs.size());
   const auto choose = [&](std::size_t n, const Direction& direction) {
+    if (!at_ends) at_ends = {sketch(model, ends[0]), sketch(model, ends[1])};
     result.single[n] = direction;
-    gaps[n] = std::min(clear_along(at_ends[0], n, direction), clear_along(at_ends[1], n, direction));
+    gaps[n] = std::min(clear_along((*at_ends)[0], n, direction), clear_along((*at_ends)[1], n, direction));
   };
   const auto sharpen = [&](std::size_t n) {
     is_sharp[n] = true;
+    if (bodies_.pairs[n].kind == PairClass::kCablesCables && bodies_.pairs[n].zones.empty()) {
+      const Point apart = rough_gap(at_middle, n).apart;  // of two segments that is where they are nearest
+      if (!apart.isZero()) choose(n, rough_direction(at_middle, n, apart, Direction::kFine));
+      return;
+    }
     if (const auto sharp = direction(model, middle, n, Direction::kFine, ends)) choose(n, *sharp);
   };
   for (std::size_t n = 0; n < bodies_.pairs.size(); ++n) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <boost/container/small_vector.hpp>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -105,15 +106,18 @@ class BodySampler {
                                                     std::size_t pair) const;
   struct Sketch;
   [[nodiscard]] Sketch sketch(const Model<double>& model, const RigidPose& pose) const;
-  /// How far apart balls around bodies, and cables, are.
+  /// How far apart cables, and balls or boxes around bodies, are.
   struct RoughGap {
     Vector3<double> apart{0, 0, 0};
-    double gap = 0;   ///< its length less the clearance
-    double lost = 0;  ///< about how much of it along rough_direction(), at most
+    double gap = -std::numeric_limits<double>::infinity();  ///< its length less the clearance
+    double lost = 0;                                        ///< about how much of it along rough_direction(), at most
   };
   [[nodiscard]] RoughGap rough_gap(const Sketch& at, std::size_t pair) const;
+  [[nodiscard]] RoughGap gap_of_aligned_boxes(const Sketch& at, std::size_t pair) const;
+  [[nodiscard]] RoughGap gap_of_balls(const Sketch& at, std::size_t pair) const;
   /// @param apart  RoughGap::apart
-  [[nodiscard]] Direction rough_direction(const Sketch& at, std::size_t pair, const Vector3<double>& apart) const;
+  [[nodiscard]] Direction rough_direction(const Sketch& at, std::size_t pair, const Vector3<double>& apart,
+                                          int largest = Direction::kCoarse) const;
   [[nodiscard]] double clear_along(const Sketch& at, std::size_t pair, const Direction& direction) const;
   struct Found;
   [[nodiscard]] Found find(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
