@@ -8,7 +8,8 @@
 # Each file is an object library, so that it is compiled with the flags of what it links and of nothing else: the files
 # that compute intervals with taut_rounding, the others without. Most tests take longer to compile than to run, so they
 # are compiled with -O1, unless they compute much themselves (OPTIMIZED): the checker's computing is FLINT's and MPFR's.
-# Files that are TOGETHER, which all link the same, are one object library and compiled several at a time.
+# A folder's files that are TOGETHER are one object library, with the flags of all that they link, and compiled several
+# at a time, since parsing headers is most of the work: a name is no two files' own.
 function(taut_add_test folder name)
   cmake_parse_arguments(ARG "TOGETHER;OPTIMIZED" "PROGRAM;SHARDS;COST;TIMEOUT" "LABELS;LIBS" ${ARGN})
   if(laws IN_LIST ARG_LABELS AND NOT TAUT_LAWS)

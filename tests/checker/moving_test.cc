@@ -42,7 +42,7 @@ Problem to_kernel_in_time(const testing::MovingMachine& machine) {
   return problem;
 }
 
-Path to_kernel(const taut::Path& path) {
+Path path_to_kernel(const taut::Path& path) {
   Path result;
   switch (path.interpolation) {
     case Interpolation::kStraight: result.law = Law::kStraight; break;
@@ -155,7 +155,7 @@ TEST(KernelMoving, InertiaAndRatesAreThoseOfParticles) {
     const bool is_small = trial % 3 == 0;
     const RandomMove random(operands, is_small ? 24 : operands.pick(7));
     const Problem problem = to_kernel_in_time(random.machine);
-    const Path path = to_kernel(random.path);
+    const Path path = path_to_kernel(random.path);
     const WorkingPrecision precision(random.box.bits);
     const Machine machine(problem);
     const Moving said = moving(machine, problem, path, random.k, random.box);
@@ -202,7 +202,7 @@ std::optional<Ball> proved_bound(const RandomMove& random) {
   problem.time.emplace();
   const WorkingPrecision precision(random.box.bits);
   try {
-    return prove_box(Machine(problem), problem, to_kernel(random.path), random.k, random.box).tension;
+    return prove_box(Machine(problem), problem, path_to_kernel(random.path), random.k, random.box).tension;
   } catch (const Undefined&) {
     return std::nullopt;
   }
@@ -222,7 +222,7 @@ TEST(KernelMoving, LimitsAreKeptOnLargeBoxesJustWhereParticlesKeepThem) {
   for (int trial = 0; trial < 24; ++trial) {
     RandomMove random(operands, 2);
     Problem problem = to_kernel_in_time(random.machine);
-    const Path path = to_kernel(random.path);
+    const Path path = path_to_kernel(random.path);
     const bool may_stop = trial % 2 == 0;
     const double stopping_s = 0.5;
     TimeLimits limits;
@@ -282,7 +282,7 @@ TEST(KernelMoving, InertiaAndRatesOfImpliedMotionsAreThoseOfParticles) {
     const auto kind = static_cast<std::size_t>(trial % testing::ImpliedMove::kKinds);
     const testing::ImpliedMove implied(operands, static_cast<testing::ImpliedMove::Kind>(kind), 0.1);
     const Problem problem = to_kernel_in_time(implied.machine);
-    const Path path = to_kernel(implied.path);
+    const Path path = path_to_kernel(implied.path);
     const auto k = static_cast<std::size_t>(operands.pick(static_cast<int>(path.segments())));
     const int depth = trial % 3 == 0 ? 24 : 6 + operands.pick(4), begin = operands.pick(1 << depth);
     Box box = dyadic_box(begin, begin + 1, depth);
@@ -383,7 +383,7 @@ bool is_power_proved(const RandomMove& random, std::size_t cable, double limit) 
   problem.time.emplace().winch_power[cable] = constant(fmt::format("{:.17g}", limit));
   const WorkingPrecision precision(random.box.bits);
   try {
-    (void)prove_box(Machine(problem), problem, to_kernel(random.path), random.k, random.box);
+    (void)prove_box(Machine(problem), problem, path_to_kernel(random.path), random.k, random.box);
   } catch (const Undefined&) {
     return false;
   }
@@ -528,7 +528,7 @@ TEST(KernelMoving, WitnessesSayWhatParticlesDo) {
   for (int trial = 0; trial < 30; ++trial) {
     const RandomMove random(operands, 10);
     const Problem problem = limited(random.machine, "1");
-    const Path path = to_kernel(random.path);
+    const Path path = path_to_kernel(random.path);
     const oracle::Move move = testing::oracle_of(random.path);
     const WorkingPrecision precision(128);
     const Machine machine(problem);
@@ -567,7 +567,7 @@ TEST(KernelMoving, WitnessesOfMovesThatAreSlowedDownSayWhatParticlesDo) {
     const RandomMove random(operands, 10);
     Problem problem = limited(random.machine, "1");
     problem.time->stopping_time = constant("0.5");
-    const Path path = to_kernel(random.path);
+    const Path path = path_to_kernel(random.path);
     const oracle::Move move = testing::oracle_of(random.path);
     const WorkingPrecision precision(128);
     const Machine machine(problem);
@@ -605,7 +605,7 @@ TEST(KernelMoving, WitnessesOfMachinesThatDeviateSayWhatParticlesDo) {
     tolerances.orientation_rad = "0.5";
     Problem problem = limited(random.machine, "1");
     problem.time->stopping_time = constant("0.5");
-    const Path path = to_kernel(random.path);
+    const Path path = path_to_kernel(random.path);
     Witness witness;
     witness.at = {random.k, random.box.begin};
     witness.at_box.bits = 128;
@@ -657,7 +657,7 @@ TEST(KernelMoving, ARateIsConfirmedOnlyWhereItIsNotBelowItsLimit) {
   const PrecisionScope oracle(oracle::kMovingBits);
   Operands operands(21);
   const RandomMove random(operands, 10);
-  const Path path = to_kernel(random.path);
+  const Path path = path_to_kernel(random.path);
   const WorkingPrecision precision(128);
   for (const WitnessKind kind : kRates) {
     Witness witness;
@@ -702,7 +702,7 @@ TEST(KernelMoving, AWitnessHoldsTheTensionsOfEveryMass) {
     Problem problem = limited(random.machine, "1");
     auto& weight = std::get<Weight>(problem.items[0].set);
     weight.mass = {exact(random.machine.mass / 2), exact(random.machine.mass)};
-    const Path path = to_kernel(random.path);
+    const Path path = path_to_kernel(random.path);
     const oracle::Move move = testing::oracle_of(random.path);
     const WorkingPrecision precision(128);
     Witness witness;
@@ -778,7 +778,7 @@ TEST(KernelMoving, ThatKMayGrowIsNotClaimed) {
     problem.time.emplace();
     const WorkingPrecision precision(random.box.bits);
     try {
-      const Bounds bounds = prove_box(Machine(problem), problem, to_kernel(random.path), random.k, random.box);
+      const Bounds bounds = prove_box(Machine(problem), problem, path_to_kernel(random.path), random.k, random.box);
       EXPECT_TRUE(arb_equal_si(bounds.wrench_scale.get(), 1));
       ++proved;
     } catch (const Undefined&) {

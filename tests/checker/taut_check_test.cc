@@ -77,7 +77,7 @@ TEST(TautCheck, ReadsNoMoreOfAKeyThanAKeyHas) {
   const std::string trust = kFolder + "accepted/refuted_length_max.json --trust ";
   EXPECT_EQ(run(trust + "/dev/zero").exit_code, 3);
   EXPECT_NE(run(trust + "/dev/zero", "2>&1").text.find("/dev/zero: got a device, expected a file"), std::string::npos);
-  const std::string pipe = testing::TempDir() + "taut_check_endless_key";
+  const std::string pipe = ::testing::TempDir() + "taut_check_endless_key";
   ASSERT_EQ(std::system(("rm -f " + pipe + " && mkfifo " + pipe).c_str()), 0);
   const std::string seen = run(trust + pipe, "2>&1 & timeout 30 sh -c 'yes >" + pipe + "'; wait").text;
   EXPECT_NE(seen.find("got more than 65536 bytes, expected a smaller file"), std::string::npos) << seen;
