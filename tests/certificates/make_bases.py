@@ -1327,6 +1327,9 @@ def moves():
     yield 'geodesic_move', proved_move(free, turn, 16)
     winches = dict(bent(free, at(a), at(m), 4, (2**-9, 2**-8)), timing=law(0.125, [0, 1], 8))
     yield 'lengths_move', proved_move(free, winches, 16)
+    less = {key: LESS[key] for key in ('base_anchor_m', 'platform_anchor_m', 'position_m', 'orientation_rad')}
+    held = with_tolerances(lifted('robot2-held-move', typed(a, b)), **less, cable_length_m=['0.0005'] * 6)
+    yield 'move_held_by_lengths', proved_move(held, curved, 16, below=0.94)
 
     quick = dict(on_sphere_path, timing=law(2**-5, [0, 4], 12))
     fast = dict(ball, time={'winch_acceleration_m_s2': limits_of(seen_of(ball, quick, 1), 0.75)[
