@@ -36,7 +36,7 @@ struct ConvexBody {
   /// A ball that contains all of it.
   Vector3<S> centre;
   S reach;  ///< its radius [m]
-  /// Corners of a box that contains the points: no coordinate is certainly below the one or above the other.
+  /// Corners of a box that contains the points: hull(lowest, highest) holds every member of each.
   Vector3<S> lowest, highest;
   /// If set, the body is the mesh alone, `points` are the corners of a box around it, and `radius` is 0.
   std::shared_ptr<const PlacedMesh<S>> mesh = nullptr;

@@ -69,9 +69,7 @@ typename BodyGaps<I, Slope>::Turned BodyGaps<I, Slope>::turned(const std::array<
 /// Whether a pair is told apart in the platform's axes.
 template <class I, class Slope>
 bool BodyGaps<I, Slope>::is_in_platform(const CheckedPair<I>& pair, const Direction& direction) const {
-  if (pair.kind == PairClass::kCablesPlatform && !direction.in_platform) {
-    throw std::logic_error("a cable and the platform are compared in the platform's axes");
-  }
+  check_axes(pair, direction);
   return direction.in_platform && pair.kind != PairClass::kCablesObstacles && half_space(box_.bodies, pair) == nullptr;
 }
 
@@ -153,6 +151,7 @@ typename BodyGaps<I, Slope>::Projections BodyGaps<I, Slope>::first(const Checked
 template <class I, class Slope>
 std::array<I, 3> BodyGaps<I, Slope>::vector(const CheckedPair<I>& pair, const Direction& direction) const {
   if (const auto* half = half_space(box_.bodies, pair)) return {half->normal(0), half->normal(1), half->normal(2)};
+  check_axes(pair, direction);
   const std::array<double, 3> u = components(direction);
   return {I(u[0]), I(u[1]), I(u[2])};
 }
@@ -225,12 +224,14 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const std::array<Nu
       lost += shifts[0] + shifts[1];
     }
     const Vector3<I>& a = box_.model.p_WA[i];
-    std::array<I, 2> ends{in_platform ? in_axes_of_platform(a) : dot(u, a),
-                          dot(u, in_platform ? box_.model.p_PB[i] : platform_anchors_[i])};
-    const I along = ends[1] - ends[0];
-    if (box_.bodies.is_cut[i][0]) ends[0] = ends[0] + cut_[i].share[0].range * along;
-    if (box_.bodies.is_cut[i][1]) ends[1] = ends[1] - cut_[i].share[1].range * along;
-    return hull(ends[0], ends[1]);
+    // Both ends of the part from the anchor that stands still in these axes, so that the other one counts once.
+    const std::size_t still = in_platform ? 1 : 0;
+    const I from = in_platform ? dot(u, box_.model.p_PB[i]) : dot(u, a);
+    const I along = (in_platform ? in_axes_of_platform(a) : dot(u, platform_anchors_[i])) - from;
+    const auto share = [&](std::size_t end) { return cut_[i].share[end].range; };
+    const I near = box_.bodies.is_cut[i][still] ? from + share(still) * along : from;
+    const I far = from + (box_.bodies.is_cut[i][1 - still] ? I(I(1.0) - share(1 - still)) * along : along);
+    return hull(near, far);
   };
   I first, second;
   I radii(0.0);

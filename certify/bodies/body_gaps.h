@@ -127,8 +127,8 @@ class BodyGaps {
   [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair) const;
   /// Whether one of its bodies is a mesh.
   [[nodiscard]] bool has_mesh(const CheckedPair<I>& pair) const;
-  /// The same from ranges alone, of boxes around bodies and of whole cables: a lower bound, for pairs that are far
-  /// apart.
+  /// The same from ranges alone, of boxes around bodies and of the ends of cables' checked parts: a lower bound, for
+  /// pairs that are far apart.
   [[nodiscard]] double rough(const CheckedPair<I>& pair, const Direction& direction) const;
 
   /// Contains how much farther than the least that may be required of the pair two of its bodies' points are apart, on

@@ -2,6 +2,8 @@
 // Small parts of body_gaps.cc and mesh_gaps.cc.
 #pragma once
 
+#include <stdexcept>
+
 #include "certify/bodies/body_gaps.h"
 
 namespace taut::body_gaps_detail {
@@ -77,6 +79,14 @@ I norm_of(const std::array<I, 3>& u) {
 template <class I>
 I norm_of(const std::array<double, 3>& u) {
   return sqrt(I(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+}
+
+/// @throws std::logic_error for a cable and the platform in W, where the platform's points do not stand still
+template <class I>
+void check_axes(const CheckedPair<I>& pair, const Direction& direction) {
+  if (pair.kind == PairClass::kCablesPlatform && !direction.in_platform) {
+    throw std::logic_error("a cable and the platform are compared in the platform's axes");
+  }
 }
 
 /// Contains the body's points.

@@ -293,7 +293,7 @@ std::vector<std::int64_t> rounded_shares(std::span<const double> shares) {
   return result;
 }
 
-/// std::gcd of two numbers from 0 to Direction::kCoarse, asked for again and again.
+/// std::gcd of two numbers that are not negative. Those up to Direction::kCoarse are asked for again and again.
 int common_divisor(int a, int b) {
   constexpr std::size_t kSize = Direction::kCoarse + 1;
   constexpr auto kTable = [] {
@@ -309,8 +309,9 @@ int common_divisor(int a, int b) {
 
 /// @returns one along z where `along` has no direction.
 Direction rounded_direction(const Point& along, bool in_platform, int largest) {
+  constexpr double kLeast = 1e-290;  // so that nothing overflows
   const double size = along.cwiseAbs().maxCoeff();
-  if (!along.allFinite() || !(size > 0)) return {in_platform, {0, 0, 1}};
+  if (!along.allFinite() || !(size > kLeast)) return {in_platform, {0, 0, 1}};
   const Point scaled = along * (largest / size);
   Direction result{in_platform, {}};
   int divisor = 0;
@@ -587,10 +588,10 @@ BodySampler::RoughGap BodySampler::gap_of_aligned_boxes(const Sketch& at, std::s
     second = {body.lowest, body.highest};
   }
   const Point apart = between_boxes(first, second);
-  const bool is_along_an_axis = (apart.array() != 0).count() == 1;  // which is not rounded
+  // Nothing is rounded along an axis of W.
+  const bool is_exact = (apart.array() != 0).count() == 1 && !is_best_in_platform(pair);
   const double size = (first.highest - first.lowest + second.highest - second.lowest).lpNorm<1>();
-  return {apart, apart.norm() - radii(bodies_, pair) - pair.clearance,
-          is_along_an_axis ? 0 : size / (2 * Direction::kCoarse)};
+  return {apart, apart.norm() - radii(bodies_, pair) - pair.clearance, is_exact ? 0 : size / (2 * Direction::kCoarse)};
 }
 
 BodySampler::RoughGap BodySampler::gap_of_balls(const Sketch& at, std::size_t n) const {
