@@ -60,19 +60,20 @@ def check(out):
 def main():
     count = len(CORES)
     lines = ["# Long audits", "",
-             "A helix in a log of times and quaternions (geodesic): read, proved with the checker's kernel run on every",
-             "box, and written as path.csv and certificate.json, without a report; then checked by `taut-check` with the",
-             f"case. Audits on one core and on {count} alternate; medians of {REPEATS}. The rate is segments a second",
-             "while they are proved, the total the time of the whole command in seconds; memory is the most that was",
-             f"used, sizes are in MB. The check runs on {count}.", "",
-             f"| waypoints | rate, 1 core | rate, {count} cores | ratio | total, 1 core | total, {count} cores | ratio "
-             "| memory | certificate | check, s | its memory |", "|---|---|---|---|---|---|---|---|---|---|---|"]
+             "A helix in a log of times and quaternions (geodesic): read, proved with the checker's kernel run on",
+             "every box, and written as path.csv and certificate.json, without a report; then checked by `taut-check`",
+             f"with the case. Audits on one core and on {count} alternate; medians of {REPEATS}. The rate is segments",
+             "a second while they are proved, the total the time of the whole command in seconds; memory is the most",
+             f"that was used, the file the certificate; both are in MB. The check runs on {count}.", "",
+             f"| waypoints | rate, 1 core | {count} cores | ratio | total, 1 core | {count} cores | ratio "
+             "| memory | file | check, s | its memory |", "|---|---|---|---|---|---|---|---|---|---|---|"]
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out")
         for rows in [10_000] + ([] if QUICK else [100_000]):
             path = os.path.join(folder, "helix.csv")
             with open(path, "w", encoding="utf-8") as file:
-                file.writelines(row + "\n" for row in helix(rows))  # a child's memory counts from what this process has
+                # One by one: a child's memory counts from what this process has.
+                file.writelines(row + "\n" for row in helix(rows))
             rates, times, memory, checks = ([], []), ([], []), 0, []
             for _ in range(REPEATS):
                 for which, cores in enumerate(([CORES[0]], CORES)):
