@@ -219,10 +219,8 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const std::array<Nu
   Upper lost(0.0);  // to deviations
   // From where to where a cable's checked part reaches along u.
   const auto cable_range = [&](std::size_t i) {
-    if (box_.tolerance != nullptr) {
-      const auto shifts = end_shifts(pair, i, in_platform);
-      lost += shifts[0] + shifts[1];
-    }
+    const auto shifts = end_shifts(pair, i, in_platform);
+    lost += shifts[0] + shifts[1];
     const Vector3<I>& a = box_.model.p_WA[i];
     // Both ends of the part from the anchor that stands still in these axes, so that the other one counts once.
     const std::size_t still = in_platform ? 1 : 0;
@@ -234,31 +232,26 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const std::array<Nu
     return hull(near, far);
   };
   I first, second;
-  I radii(0.0);
   if (pair.kind == PairClass::kPlatformObstacles) {
     const ConvexBody<I>& body = box_.bodies.platform[pair.first];
     if (box_.tolerance != nullptr && !in_platform) {
       lost += position_ + turn_ * (norm_above(body.centre) + above(body.reach));
     }
     first = in_platform ? dot(u, box_around(body)) : dot(u, platform_bodies_[pair.first]);
-    radii = body.radius;
   } else {
     first = cable_range(pair.first);
-    radii = box_.bodies.cable_radius[pair.first];
   }
   if (const auto* half = half_space(box_.bodies, pair)) {
     second = half->offset;
   } else if (pair.kind == PairClass::kCablesCables) {
     second = cable_range(pair.second);
-    radii = radii + box_.bodies.cable_radius[pair.second];
   } else {
     const ConvexBody<I>& body = second_hull(box_.bodies, pair);
     const bool is_moving = in_platform && pair.kind == PairClass::kPlatformObstacles;
     if (is_moving && box_.tolerance != nullptr) lost += obstacle_shift(body.centre) + turn_ * above(body.reach);
     second = is_moving ? in_axes_of_platform(box_around(body)) : dot(u, box_around(body));
-    radii = radii + body.radius;
   }
-  const I gap = (first - second) / norm_of<I>(u) - radii - required(pair, false).at_most;
+  const I gap = (first - second) / norm_of<I>(u) - radii(pair) - required(pair, false).at_most;
   return lower_bound(I(gap + ProofScalarTraits<I>::symmetric(lost)));
 }
 

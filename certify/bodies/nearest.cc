@@ -678,9 +678,9 @@ PairDirections BodySampler::first_directions(const Model<double>& model, const R
   };
   const auto sharpen = [&](std::size_t n) {
     is_sharp[n] = true;
-    if (bodies_.pairs[n].kind == PairClass::kCablesCables && bodies_.pairs[n].zones.empty()) {
+    if (bodies_.pairs[n].kind == PairClass::kCablesCables) {
       const Point apart = rough_gap(at_middle, n).apart;  // of two segments that is where they are nearest
-      if (!apart.isZero()) choose(n, rough_direction(at_middle, n, apart, Direction::kFine));
+      if (apart.squaredNorm() > 0) choose(n, rough_direction(at_middle, n, apart, Direction::kFine));
       return;
     }
     if (const auto sharp = direction(model, middle, n, Direction::kFine, ends)) choose(n, *sharp);
