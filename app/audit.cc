@@ -5,11 +5,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include "app/audit_batch.h"
 #include "app/gravest_witness.h"
+#include "base/clock.h"
 #include "base/input_error.h"
 #include "planner/time_budget.h"
 #include "reports/summary/display_units.h"
@@ -19,10 +19,6 @@
 
 namespace taut {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 /// Takes batches in order, gives the writer what it needs, and keeps what a summary needs.
 class BatchWriter {
@@ -228,7 +224,7 @@ class BatchWriter {
 /// Proves all segments, in a pipeline: read, prove on all cores, write.
 Audit run_pipeline(const Prover& prover, PathSource& source, CertificateWriter& certificate, const WriteText& csv,
                    const AuditProgress& progress, const std::stop_token& stop) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   constexpr std::size_t kMostSegments = 128;
   constexpr std::size_t kBatchesPerThread = 8;  // few segments are spread evenly

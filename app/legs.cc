@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/legs.h"
 
-#include <chrono>
 #include <utility>
 
 #include "app/meshes.h"
+#include "base/clock.h"
 #include "certificate/legs.h"
 
 namespace taut {
@@ -12,7 +12,6 @@ namespace {
 
 PlannedLeg plan_leg(const Case& leg, const PlannedCaseOptions& options, const Progress& progress,
                     const std::stop_token& stop) {
-  using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   Planner planner(leg);
   PlannedLeg result{plan_case(leg, planner, options, progress, stop), {}, 0};
@@ -20,7 +19,7 @@ PlannedLeg plan_leg(const Case& leg, const PlannedCaseOptions& options, const Pr
   if (plan.proof.verdict == Verdict::kProved) result.lengths = planner.measure(plan.path);
   std::string& text = result.planned.text;
   if (text.ends_with('\n')) text.pop_back();  // so that it can stand in a list
-  result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  result.seconds = seconds_since(begin);
   return result;
 }
 

@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 namespace taut {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegrees = 180 / kPi;
+constexpr double kDegrees = 180 / std::numbers::pi;
 
 Eigen::Quaterniond quaternion(const std::vector<double>& x) {
   return Eigen::Quaterniond(x[6], x[3], x[4], x[5]).normalized();
@@ -38,8 +38,8 @@ std::string quaternion_hint(const PoseSampler& sampler, const PathHeader& header
   for (std::size_t k = 0; k < 4; ++k) other[3 + k] = first.x[3 + (k + 1) % 4];  // the first number as w
   const double as_read = turned(quaternion(first.x));
   const double as_other = turned(quaternion(other));
-  constexpr double kMuch = 2 * kPi / 3;
-  constexpr double kLittle = kPi / 3;
+  constexpr double kMuch = 2 * std::numbers::pi / 3;
+  constexpr double kLittle = std::numbers::pi / 3;
   const bool is_plausible = is_feasible(sampler, header.form, other) || (as_read > kMuch && as_other < kLittle);
   if (!is_plausible) return "";
   return fmt::format(
@@ -53,7 +53,7 @@ std::string quaternion_hint(const PoseSampler& sampler, const PathHeader& header
 std::string column_hint(const PoseSampler& sampler, const PathHeader& header, const PathRow& first) {
   if (header.form == PathForm::kCableLengths) return "";
   PathRow row = first;
-  for (std::size_t j = 0; j < row.x.size(); ++j) row.x[j] += kPi * row.half_turns[j];
+  for (std::size_t j = 0; j < row.x.size(); ++j) row.x[j] += std::numbers::pi * row.half_turns[j];
   if (is_feasible(sampler, header.form, row.x)) return "";
   if (header.form == PathForm::kQuaternion) {
     if (std::string hint = quaternion_hint(sampler, header, row); !hint.empty()) return hint;

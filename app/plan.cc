@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "app/illustration.h"
 #include "app/meshes.h"
+#include "base/clock.h"
 #include "certificate/certificate_writer.h"
 #include "certificate/elaborate.h"
 #include "certify/undecided.h"
@@ -51,9 +51,8 @@ GrowthEstimate estimated(const Case& the_case, const Planner& planner, int grown
 Growth grow(const Case& the_case, Planner& planner, const PlannedCaseOptions& options, const Progress& progress,
             const std::stop_token& stop) {
   constexpr double kTrySeconds = 0.2;
-  using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const auto seconds = [&] { return seconds_since(begin); };
   const int before = planner.atlas().size();
   const TimeBudget budget(options.grow_seconds, stop);
   Growth growth;

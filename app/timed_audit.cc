@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <sstream>
 
 #include "app/meshes.h"
@@ -35,12 +36,10 @@
 namespace taut {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// "0.0123 mm": a bound, rounded up.
 std::string millimetres_above(double metres) { return DisplayUnits().length.up(metres, 3) + " mm"; }
 std::string degrees_above(double radians) {
-  constexpr double kDegrees = 180 / kPi * (1 + 1e-15);
+  constexpr double kDegrees = 180 / std::numbers::pi * (1 + 1e-15);
   return rounded_up(kDegrees * radians, 3) + " deg";
 }
 
@@ -50,7 +49,8 @@ std::array<double, 3> roll_pitch_yaw(const Eigen::Quaterniond& q,
                                      const std::optional<std::array<double, 3>>& previous) {
   std::array<double, 3> result = angles_of(AngleKind::kRollPitchYaw, q.toRotationMatrix());
   if (!previous) return result;
-  for (const std::size_t i : {0U, 2U}) result[i] += 2 * kPi * std::round(((*previous)[i] - result[i]) / (2 * kPi));
+  for (const std::size_t i : {0U, 2U})
+    result[i] += 2 * std::numbers::pi * std::round(((*previous)[i] - result[i]) / (2 * std::numbers::pi));
   return result;
 }
 
@@ -147,11 +147,11 @@ class TableReader {
     if (poses_.empty()) {
       for (const PathRow& row : rows_) {
         std::vector<double>& x = parameters_.emplace_back(row.x);
-        for (std::size_t j = 0; j < x.size(); ++j) x[j] += kPi * row.half_turns[j];
+        for (std::size_t j = 0; j < x.size(); ++j) x[j] += std::numbers::pi * row.half_turns[j];
       }
       return;
     }
-    constexpr double kClear = 10 * kPi / 180;  // of where two of three angles turn about one axis
+    constexpr double kClear = 10 * std::numbers::pi / 180;  // of where two of three angles turn about one axis
     if (is_clear_in(AngleKind::kRollPitchYaw, kClear)) return;
     if (is_clear_in(AngleKind::kTiltAndTorsion, kClear)) return;
     fail(
@@ -170,7 +170,7 @@ class TableReader {
       if (kind == AngleKind::kRollPitchYaw) {
         rpy = roll_pitch_yaw(q, rpy);
         angles = *rpy;
-        is_clear = std::abs(angles[1]) < kPi / 2 - clear;
+        is_clear = std::abs(angles[1]) < std::numbers::pi / 2 - clear;
       } else {
         tilted = tilt_and_torsion(q, tilted);
         angles = {tilted->value(0), tilted->value(1), tilted->value(2)};
@@ -206,12 +206,12 @@ class TableReader {
     MoveFit fit = fit_move(problem_, rows, since_begin(rows_.back()), rounding);
     if (fit.worst.share <= 1) return fit;
     if (const auto end = moving_end(problem_, rows, rounding)) {
-      fail(
-          (end->is_last ? rows_.back() : rows_.front()).line,
-          fmt::format("got a platform that {} at {:.3g} m/s and {:.3g} deg/s in the {} row, expected a move that {} at "
-                      "rest",
-                      end->is_last ? "still goes" : "goes", end->speed_m_s, end->angular_speed_rad_s * 180 / kPi,
-                      end->is_last ? "last" : "first", end->is_last ? "ends" : "begins"));
+      fail((end->is_last ? rows_.back() : rows_.front()).line,
+           fmt::format(
+               "got a platform that {} at {:.3g} m/s and {:.3g} deg/s in the {} row, expected a move that {} at "
+               "rest",
+               end->is_last ? "still goes" : "goes", end->speed_m_s, end->angular_speed_rad_s * 180 / std::numbers::pi,
+               end->is_last ? "last" : "first", end->is_last ? "ends" : "begins"));
     }
     const RowOffset& worst = fit.worst;
     complain_of_row(worst.row, {worst.position_m, worst.angle_rad, worst.length_m}, fit.path.segments());

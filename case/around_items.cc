@@ -172,16 +172,6 @@ void Sum::add_part(const Matrix3& shape, const Rational& square, bool is_moment)
   }
 }
 
-/// The greatest magnitude in the set.
-Rational greatest(const VectorSet& set) {
-  if (const auto* segment = std::get_if<SegmentOfVectors>(&set)) {
-    const Rational lower = abs(parse_rational(segment->lower)), upper = abs(parse_rational(segment->upper));
-    return std::max(lower, upper);
-  }
-  const auto* disc = std::get_if<DiscOfVectors>(&set);
-  return parse_rational(disc ? disc->radius : std::get<BallOfVectors>(set).radius);
-}
-
 /// A set in the axes of W.
 void Sum::add_set(const VectorSet& set, bool is_moment) {
   if (const auto* ball = std::get_if<BallOfVectors>(&set)) {
@@ -445,6 +435,15 @@ std::array<DecimalText, 3> centre_of(const LoadText& load) {
 }
 
 }  // namespace
+
+Rational greatest(const VectorSet& set) {
+  if (const auto* segment = std::get_if<SegmentOfVectors>(&set)) {
+    const Rational lower = abs(parse_rational(segment->lower)), upper = abs(parse_rational(segment->upper));
+    return std::max(lower, upper);
+  }
+  const auto* disc = std::get_if<DiscOfVectors>(&set);
+  return parse_rational(disc ? disc->radius : std::get<BallOfVectors>(set).radius);
+}
 
 LoadText ellipsoid_around_items(const LoadText& load, double arm_m) try {
   LoadText result;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "problem/problem.h"
+#include "problem/rational.h"
 
 namespace taut::case_fields {
 
@@ -14,5 +15,8 @@ namespace taut::case_fields {
 /// so small that it doesn't matter compares with a moment
 /// @throws InputError where numbers are so far apart that no ellipsoid is found.
 [[nodiscard]] LoadText ellipsoid_around_items(const LoadText& load, double arm_m);
+
+/// The greatest magnitude of a vector in the set.
+[[nodiscard]] Rational greatest(const VectorSet& set);
 
 }  // namespace taut::case_fields

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/sanitize.h"
+#include "case/around_items.h"
 #include "problem/load.h"
 
 namespace taut::case_fields {
@@ -364,16 +365,6 @@ Rational ItemReader::read_at_tolerance(const Map& item) const {
   const Rational tolerance = field ? read_rational(*field, units_[Dimension::kLength]) : Rational(0);
   if (tolerance < 0) field->fail("a tolerance >= 0");
   return tolerance;
-}
-
-/// The greatest magnitude of a vector in the set.
-Rational greatest(const VectorSet& set) {
-  if (const auto* segment = std::get_if<SegmentOfVectors>(&set)) {
-    const Rational lower = abs(parse_rational(segment->lower)), upper = abs(parse_rational(segment->upper));
-    return std::max(lower, upper);
-  }
-  const auto* disc = std::get_if<DiscOfVectors>(&set);
-  return parse_rational(disc ? disc->radius : std::get<BallOfVectors>(set).radius);
 }
 
 /// The set with every vector so many times as long. @pre factor >= 0, and the set is a ball or a disc

@@ -22,8 +22,8 @@
 namespace taut {
 namespace {
 
-[[noreturn]] void fail(const std::string& message) { throw InputError(ErrorCode::kCase, message); }
-[[noreturn]] void fail_as_cut() { fail("which is no whole ply file, expected a mesh"); }
+[[noreturn]] void fail_as_ply(const std::string& message) { throw InputError(ErrorCode::kCase, message); }
+[[noreturn]] void fail_as_cut() { fail_as_ply("which is no whole ply file, expected a mesh"); }
 
 // --- Header --------------------------------------------------------------------------------------------------------
 
@@ -78,7 +78,7 @@ struct Header {
 Number number_of(const std::string& name) {
   const auto* const found = std::ranges::find(kNumberNames, name, &NumberName::name);
   if (found == kNumberNames.end()) {
-    fail(fmt::format("in which numbers are of the type '{}', expected a mesh", excerpt(name)));
+    fail_as_ply(fmt::format("in which numbers are of the type '{}', expected a mesh", excerpt(name)));
   }
   return found->number;
 }
@@ -91,25 +91,25 @@ Format format_of(std::istringstream& words) {
     if (format == "binary_little_endian") return Format::kLittleEndian;
     if (format == "binary_big_endian") return Format::kBigEndian;
   }
-  fail(fmt::format("which is of the format '{}', expected ascii 1.0 or binary_little_endian 1.0",
-                   excerpt(format + " " + version)));
+  fail_as_ply(fmt::format("which is of the format '{}', expected ascii 1.0 or binary_little_endian 1.0",
+                          excerpt(format + " " + version)));
 }
 
 Part part_of(const std::string& name) {
   if (name == "vertex" || name == "vertices") return Part::kPoints;
   if (name == "face" || name == "faces") return Part::kFaces;
   if (name == "edge") return Part::kEdges;
-  fail(fmt::format("which has elements that are called '{}', expected points and faces", excerpt(name)));
+  fail_as_ply(fmt::format("which has elements that are called '{}', expected points and faces", excerpt(name)));
 }
 
 Element element_of(std::istringstream& words) {
   std::string name, digits;
-  if (!(words >> name >> digits)) fail("in which an element has no count, expected a mesh");
+  if (!(words >> name >> digits)) fail_as_ply("in which an element has no count, expected a mesh");
   Element element;
   element.part = part_of(name);
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), element.count);
   if (error != std::errc() || end != digits.data() + digits.size()) {
-    fail(fmt::format("in which '{}' is no count of elements, expected a mesh", excerpt(digits)));
+    fail_as_ply(fmt::format("in which '{}' is no count of elements, expected a mesh", excerpt(digits)));
   }
   return element;
 }
@@ -122,10 +122,10 @@ Property property_of(std::istringstream& words) {
     std::string count;
     words >> count >> type;
     property.count = number_of(count);
-    if (is_float(*property.count)) fail("in which the length of a list is no integer, expected a mesh");
+    if (is_float(*property.count)) fail_as_ply("in which the length of a list is no integer, expected a mesh");
   }
   property.number = number_of(type);
-  if (!(words >> property.name)) fail("in which a property has no name, expected a mesh");
+  if (!(words >> property.name)) fail_as_ply("in which a property has no name, expected a mesh");
   return property;
 }
 
@@ -156,11 +156,11 @@ Header read_header(const std::string& bytes) {
     } else if (word == "property" && !header.elements.empty()) {
       header.elements.back().properties.push_back(property_of(words));
     } else if (word != "comment" && word != "obj_info") {
-      fail(fmt::format("in whose header '{}' is not known, expected a mesh", excerpt(word)));
+      fail_as_ply(fmt::format("in whose header '{}' is not known, expected a mesh", excerpt(word)));
     } else {
       continue;
     }
-    if (words >> word) fail(fmt::format("in whose header '{}' is not known, expected a mesh", excerpt(word)));
+    if (words >> word) fail_as_ply(fmt::format("in whose header '{}' is not known, expected a mesh", excerpt(word)));
   }
   fail_as_cut();
 }
@@ -169,12 +169,13 @@ Header read_header(const std::string& bytes) {
 void require_distinct(const Header& header) {
   for (const Element& element : header.elements) {
     if (std::ranges::count(header.elements, element.part, &Element::part) > 1) {
-      fail("in which points, faces or edges are there twice, expected a mesh");
+      fail_as_ply("in which points, faces or edges are there twice, expected a mesh");
     }
-    if (element.count > 0 && element.properties.empty()) fail("in which elements have no properties, expected a mesh");
+    if (element.count > 0 && element.properties.empty())
+      fail_as_ply("in which elements have no properties, expected a mesh");
     for (const Property& property : element.properties) {
       if (std::ranges::count(element.properties, property.name, &Property::name) > 1) {
-        fail(fmt::format("in which a property '{}' is there twice, expected a mesh", excerpt(property.name)));
+        fail_as_ply(fmt::format("in which a property '{}' is there twice, expected a mesh", excerpt(property.name)));
       }
     }
   }
@@ -208,7 +209,7 @@ class Numbers {
   std::size_t next_index(Number number) {
     const double value = next(number);
     if (!(value >= 0 && value <= UINT32_MAX && value == std::floor(value))) {
-      fail(fmt::format("in which {} is no length of a list and no index, expected a mesh", value));
+      fail_as_ply(fmt::format("in which {} is no length of a list and no index, expected a mesh", value));
     }
     return static_cast<std::size_t>(value);
   }
@@ -256,7 +257,7 @@ class Numbers {
     std::istringstream stream{std::string(digits)};  // takes what is too small for 0, and not what is too large
     stream.imbue(std::locale::classic());
     if (is_whole && error == std::errc::result_out_of_range && stream >> value) return static_cast<double>(value);
-    fail(fmt::format("in which '{}' is no number, expected a mesh", excerpt(word)));
+    fail_as_ply(fmt::format("in which '{}' is no number, expected a mesh", excerpt(word)));
   }
 
   std::string_view rest_;
@@ -281,7 +282,7 @@ void read_points(const Element& element, Numbers& numbers, PolygonSoup& soup) {
   }
   for (std::size_t k = 0; k < kCoordinates.size(); ++k) {
     if (std::ranges::find(axes, k) != axes.end()) continue;
-    fail(fmt::format("in which points have no floating-point number '{}', expected a mesh", kCoordinates[k]));
+    fail_as_ply(fmt::format("in which points have no floating-point number '{}', expected a mesh", kCoordinates[k]));
   }
   for (std::size_t i = 0; i < element.count; ++i) {
     std::array<double, 3>& point = soup.points.emplace_back();
@@ -301,10 +302,10 @@ void read_faces(const Element& element, Numbers& numbers, PolygonSoup& soup) {
            (property.name == "vertex_indices" || property.name == "vertex_index");
   };
   if (std::ranges::count_if(element.properties, has_corners) != 1) {
-    fail("in which faces have no list of integers 'vertex_indices', or two, expected a mesh");
+    fail_as_ply("in which faces have no list of integers 'vertex_indices', or two, expected a mesh");
   }
   if (element.count > kMostMeshTriangles) {
-    fail(fmt::format("a mesh of {} faces, expected at most {}", element.count, kMostMeshTriangles));
+    fail_as_ply(fmt::format("a mesh of {} faces, expected at most {}", element.count, kMostMeshTriangles));
   }
   for (std::size_t i = 0; i < element.count; ++i) {
     std::vector<std::size_t>& face = soup.faces.emplace_back();
@@ -338,7 +339,7 @@ PolygonSoup read_ply(const std::string& bytes) {
   Numbers numbers(bytes, header);
   PolygonSoup soup;
   for (const Element& element : header.elements) read_element(element, numbers, soup);
-  if (!numbers.is_at_end()) fail("which holds more than its header says, expected a mesh");
+  if (!numbers.is_at_end()) fail_as_ply("which holds more than its header says, expected a mesh");
   return soup;
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "certificate/implied_motion.h"
+#include "certificate/kernel_problem.h"
 #include "certificate/worst_loads.h"
 #include "certify/arithmetic/rounding.h"
 #include "checker/format/cursor.h"
@@ -149,33 +150,6 @@ checker::Witness statement(const PathWitness& found, std::size_t k) {
   result.cable = static_cast<std::size_t>(found.rate ? found.rate->cable : found.margin.cable);
   if (found.deviation) result.deviation = to_kernel(*found.deviation);
   if (found.slowing) result.slowing = {exact(found.slowing->speed), found.slowing->change};
-  return result;
-}
-
-std::shared_ptr<const checker::Surface> to_kernel(const TriangleMesh& mesh) {
-  return std::make_shared<const checker::Surface>(mesh.vertices, mesh.triangles, mesh.needles);
-}
-
-/// Hands over the meshes of bodies, which the JSON of a problem only names.
-void supply_meshes(const std::vector<BodyText>& texts, std::vector<checker::RigidBody>& bodies,
-                   std::map<std::string, std::shared_ptr<const checker::Surface>>& known) {
-  for (std::size_t k = 0; k < texts.size(); ++k) {
-    const auto* text = std::get_if<MeshText>(&texts[k].shape);
-    if (text == nullptr || text->mesh == nullptr) continue;
-    std::shared_ptr<const checker::Surface>& surface = known[text->sha256];
-    if (surface == nullptr) surface = to_kernel(text->mesh->mesh());
-    std::get<checker::MeshShape>(bodies.at(k).shape).surface = surface;
-  }
-}
-
-checker::Problem to_kernel(const Problem& problem) {
-  const nlohmann::json json = to_json(problem);
-  checker::Problem result = checker::read_problem(checker::Cursor(json, "problem"));
-  if (problem.bodies) {
-    std::map<std::string, std::shared_ptr<const checker::Surface>> known;  // by digest
-    supply_meshes(problem.bodies->platform, result.bodies->platform, known);
-    supply_meshes(problem.bodies->obstacles, result.bodies->obstacles, known);
-  }
   return result;
 }
 

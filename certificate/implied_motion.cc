@@ -18,7 +18,7 @@ namespace {
 using checker::Ball;
 using checker::MeanValueForm;
 
-double approx(const Ball& x) { return arf_get_d(arb_midref(x.get()), ARF_RND_NEAR); }
+double nearest_double(const Ball& x) { return arf_get_d(arb_midref(x.get()), ARF_RND_NEAR); }
 double largest(const Ball& x) { return arf_get_d(arb_midref(magnitude(x).get()), ARF_RND_CEIL); }
 
 /// A number with few digits that is not below x.
@@ -44,7 +44,7 @@ std::optional<std::vector<double>> newton(const checker::Equations& equations, s
     const checker::Vector6<MeanValueForm> moved = multiply(approximate_inverse(G), equations.residual(curve));
     double size = 0;
     for (std::size_t i = 0; i < y.size(); ++i) {
-      const double by = approx(moved[i].at);
+      const double by = nearest_double(moved[i].at);
       y[i] -= by;
       size = std::max(size, std::abs(by));
     }
@@ -121,9 +121,9 @@ RigidPose rigid_pose(const checker::Frame& frame) {
   RigidPose result;
   Eigen::Matrix3d R;
   for (int i = 0; i < 3; ++i) {
-    result.p(i) = approx(frame.p[static_cast<std::size_t>(i)].at);
+    result.p(i) = nearest_double(frame.p[static_cast<std::size_t>(i)].at);
     for (int j = 0; j < 3; ++j) {
-      R(i, j) = approx(frame.R[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].at);
+      R(i, j) = nearest_double(frame.R[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].at);
     }
   }
   result.q = Eigen::Quaterniond(R).normalized();
@@ -169,7 +169,7 @@ class Way {
     std::array<double, kCables> lengths{};
     const double part = tau.get_d();
     for (std::size_t i = 0; i < kCables; ++i) {
-      lengths[i] = approx(stated_.length[i].at) + part * (*by_.cable_lengths)[i].get_d();
+      lengths[i] = nearest_double(stated_.length[i].at) + part * (*by_.cable_lengths)[i].get_d();
       for (std::size_t c = 0; c < 3; ++c) {
         model.p_WA[i](static_cast<Eigen::Index>(c)) += part * by_.base_anchors[i][c].get_d();
         model.p_PB[i](static_cast<Eigen::Index>(c)) += part * by_.platform_anchors[i][c].get_d();

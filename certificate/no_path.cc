@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/sha256.h"
+#include "certificate/kernel_problem.h"
 #include "checker/format/claims.h"
 #include "checker/format/parts.h"
 
@@ -17,12 +18,7 @@ namespace {
 using checker::OutsideReason;
 using nlohmann::json;
 
-constexpr int kMostHalvings = 4;  ///< of a cell that the kernel does not prove at one go
-
-checker::Problem to_kernel(const Problem& problem) {
-  const json text = to_json(problem);
-  return checker::read_problem(checker::Cursor(text, "problem"));
-}
+constexpr int kMostCellHalvings = 4;  ///< of a cell that the kernel does not prove at one go
 
 /// All reasons, those of one cable and side first.
 std::vector<OutsideReason> reasons(const OutsideReason& first) {
@@ -167,7 +163,7 @@ OutsidePart OutsideCells::halved(std::vector<checker::CellPart> cell, const Firs
     // the poses of so large a cell are not enclosed
   }
   const auto widest = std::ranges::min_element(cell, {}, &checker::CellPart::depth);
-  if (halvings == kMostHalvings || widest->depth == checker::CellTree::kMaxDepth) return {};
+  if (halvings == kMostCellHalvings || widest->depth == checker::CellTree::kMaxDepth) return {};
   OutsidePart result{std::string(1, static_cast<char>('0' + (widest - cell.begin()))), {}};
   *widest = {2 * widest->k, widest->depth + 1};
   for (int side = 0; side < 2; ++side) {

@@ -5,19 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace taut {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// The one of x + 2π k that is nearest to `target`, as k whole turns.
-int turns_towards(double x, double target) { return static_cast<int>(std::lround((target - x) / (2 * kPi))); }
+int turns_towards(double x, double target) {
+  return static_cast<int>(std::lround((target - x) / (2 * std::numbers::pi)));
+}
 
 /// Within (−π, π].
 double principal(double angle) {
-  const double reduced = std::remainder(angle, 2 * kPi);
-  return reduced <= -kPi ? kPi : reduced;
+  const double reduced = std::remainder(angle, 2 * std::numbers::pi);
+  return reduced <= -std::numbers::pi ? std::numbers::pi : reduced;
 }
 
 using Lengths = Eigen::Matrix<double, kCables, 1>;
@@ -118,7 +119,7 @@ RigidPose rigid_pose(const Angles<double>& angles, const Pose<double>& pose) {
 
 RigidPose rigid_pose(const TiltedPose& pose) { return {pose.p, quaternion(pose.phi, pose.theta, pose.sigma)}; }
 
-double TiltAndTorsion::value(std::size_t i) const { return x[i] + kPi * half_turns[i]; }
+double TiltAndTorsion::value(std::size_t i) const { return x[i] + std::numbers::pi * half_turns[i]; }
 
 TiltAndTorsion tilt_and_torsion(const Eigen::Quaterniond& q, const std::optional<TiltAndTorsion>& previous) {
   const double tilted = std::hypot(q.x(), q.y());
@@ -135,7 +136,7 @@ TiltAndTorsion tilt_and_torsion(const Eigen::Quaterniond& q, const std::optional
   TiltAndTorsion flipped = result;
   flipped.x[1] = -theta;
   result.half_turns[0] = 2 * turns_towards(result.x[0], old_phi);
-  flipped.half_turns[0] = 1 + 2 * turns_towards(result.x[0] + kPi, old_phi);
+  flipped.half_turns[0] = 1 + 2 * turns_towards(result.x[0] + std::numbers::pi, old_phi);
   const auto distance = [&](const TiltAndTorsion& t) {
     return std::abs(t.value(0) - old_phi) + std::abs(t.value(1) - previous->value(1));
   };

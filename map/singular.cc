@@ -19,9 +19,9 @@ std::optional<std::size_t> widest_axis(const MapSpace& space, const Cell& cell, 
   return widest;
 }
 
-class Refinement {
+class CellRefinement {
  public:
-  Refinement(const Problem& problem, const MapSpace& space, double width)
+  CellRefinement(const Problem& problem, const MapSpace& space, double width)
       : space_(space),
         width_(width),
         proof_(make_cell_proof(problem, space)),
@@ -48,7 +48,7 @@ class Refinement {
 }  // namespace
 
 std::vector<Cell> singular_cells(const Problem& problem, const CellMap& map, double width) {
-  const Refinement refinement(problem, map.space, width);
+  const CellRefinement refinement(problem, map.space, width);
   std::vector<Cell> open;
   map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
     if (!map.nodes[node].regular && map.nodes[node].kind != CellKind::kLength) open.push_back(cell);

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace taut {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 std::string meaning(PathForm form, AngleKind angles) {
   switch (form) {
@@ -75,7 +74,7 @@ PathSummary::PathSummary(const Problem& problem, PathHeader header)
 
 std::vector<double> PathSummary::values(const PathRow& row) const {
   std::vector<double> result = row.x;
-  for (std::size_t j = 0; j < result.size(); ++j) result[j] += kPi * row.half_turns[j];
+  for (std::size_t j = 0; j < result.size(); ++j) result[j] += std::numbers::pi * row.half_turns[j];
   return result;
 }
 
@@ -112,7 +111,7 @@ void PathSummary::add(const PathRow& row) {
     for (std::size_t j = 0; j < x.size(); ++j) {
       lower_[j] = std::min(lower_[j], x[j]);
       upper_[j] = std::max(upper_[j], x[j]);
-      jumps |= is_angle_[j] && std::abs(x[j] - previous_[j]) > kPi;
+      jumps |= is_angle_[j] && std::abs(x[j] - previous_[j]) > std::numbers::pi;
     }
     if (jumps && jumps_++ == 0) first_jump_line_ = row.line;
   }

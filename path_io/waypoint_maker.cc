@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace taut {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double largest_difference(const std::array<double, kCables>& a, const std::array<double, kCables>& b) {
   double largest = 0;
@@ -79,7 +78,7 @@ RigidPose WaypointMaker::pose_of(PathForm form, const std::vector<double>& x,
     return {Vector3<double>(x[0], x[1], x[2]), Eigen::Quaterniond(x[6], x[3], x[4], x[5]).normalized()};
   }
   std::vector<double> values = x;
-  for (std::size_t j = 0; j < half_turns.size(); ++j) values[j] += kPi * half_turns[j];
+  for (std::size_t j = 0; j < half_turns.size(); ++j) values[j] += std::numbers::pi * half_turns[j];
   if (form == PathForm::kParameters) return sampler_.rigid_pose(sampler_.pose(values));
   Pose<double> pose{Vector3<double>(values[0], values[1], values[2]), {}};
   std::copy(values.begin() + 3, values.end(), pose.angles.begin());

@@ -12,7 +12,6 @@
 namespace taut {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kLeastPieces = 3;      // each end takes three equal control points
 constexpr std::size_t kMostPieces = 19'997;  // of a law's 20,000 control values
 constexpr std::size_t kRowsOfPiece = 2;      // at least, on average: fewer would let the spline pass all rows
@@ -35,7 +34,7 @@ RowOffset offset(const Model<double>& model, const RigidPose& a, const RigidPose
   } else {
     result.share = std::max(result.position_m / rounding.position_m, result.angle_rad / rounding.angle_rad);
   }
-  if (!std::isfinite(result.share)) result.share = kInfinity;
+  if (!std::isfinite(result.share)) result.share = std::numeric_limits<double>::infinity();
   return result;
 }
 

@@ -64,7 +64,8 @@ void PathLength::fit_sphere(const std::vector<Coordinates>& near) {
   }
   const Eigen::Vector4d solution = equations.colPivHouseholderQr().solve(squares);
   sphere_radius_ = std::sqrt(std::max(0.0, solution[3] + solution.head<3>().squaredNorm()));
-  const double misfit = (equations * solution - squares).lpNorm<Eigen::Infinity>();
+  const Eigen::VectorXd misfits = equations * solution - squares;
+  const double misfit = misfits.lpNorm<Eigen::Infinity>();
   if (!(misfit <= 1e-9 * squares.lpNorm<Eigen::Infinity>()) || !(sphere_radius_ > 0)) {
     throw InputError("planner.cost: got 'great_circle', expected a space whose positions p lie on one sphere");
   }

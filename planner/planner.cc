@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "atlas/wrench_feasible_manifold.h"
+#include "base/clock.h"
 #include "base/plural.h"
 #include "base/sha256.h"
 #include "certify/undecided.h"
@@ -26,10 +26,6 @@
 
 namespace taut {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // ---- Waypoints and the planner's coordinates
 // --------------------------------------------------------------------------

@@ -112,14 +112,6 @@ json list_to_json(const std::vector<BodyText>& bodies) {
 
 // --- Validating --------------------------------------------------------------------------------------------------
 
-Decimal decimal_at(const std::string& where, const DecimalText& text) {
-  try {
-    return Decimal::parse(text);
-  } catch (const InputError& error) {
-    throw FieldError(where, "", error.what());
-  }
-}
-
 void validate_point(const std::string& where, const PointText& point) {
   for (std::size_t k = 0; k < 3; ++k) static_cast<void>(decimal_at(fmt::format("{}[{}]", where, k), point[k]));
 }
@@ -157,7 +149,7 @@ void validate_hull(const std::string& where, const HullText& hull) {
 }
 
 /// A direction whose length is a binary64 number and not 0, as for the axis of a space.
-void validate_direction(const std::string& where, const PointText& direction) {
+void validate_sized_direction(const std::string& where, const PointText& direction) {
   validate_point(where, direction);
   const auto is_below = [](const DecimalText& text, const char* limit) {
     return boost::multiprecision::abs(Decimal::parse(text).rational()) < Decimal::parse(limit).rational();
@@ -169,7 +161,7 @@ void validate_direction(const std::string& where, const PointText& direction) {
 }
 
 void validate_half_space(const std::string& where, const BodyText& body, const HalfSpaceText& half_space) {
-  validate_direction(where + ".normal", half_space.normal);
+  validate_sized_direction(where + ".normal", half_space.normal);
   if (body.rotation_rad != kNoRotation) {
     throw FieldError(where + ".rotation", "a rotation of a half-space",
                      "expected none: its normal says where it faces");
@@ -255,7 +247,7 @@ void validate_exit_cones(const std::vector<ExitConeText>& cones) {
       throw FieldError(where, fmt::format("a second exit cone of cable {} at the {}", cone.cable + 1, name(cone.end)),
                        "expected at most one");
     }
-    validate_direction(where + ".axis", cone.axis);
+    validate_sized_direction(where + ".axis", cone.axis);
     double value = 0;
     try {
       value = evaluate_constant<double>(cone.half_angle_rad);

@@ -21,12 +21,6 @@ using boost::multiprecision::cpp_rational;
 
 cpp_int ten_to_the(int n) { return boost::multiprecision::pow(cpp_int(10), static_cast<unsigned>(n)); }
 
-[[noreturn]] void fail(std::string_view text, const std::string& expected) {
-  constexpr std::size_t kShown = 60;
-  throw InputError(
-      fmt::format("got '{}{}', expected {}", text.substr(0, kShown), text.size() > kShown ? "…" : "", expected));
-}
-
 /// Removes and returns the digits that `text` begins with.
 std::string_view take_digits(std::string_view& text) {
   const auto end = std::find_if_not(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
@@ -55,10 +49,10 @@ Decimal::Decimal(cpp_int mantissa, int exponent) : mantissa_(std::move(mantissa)
   const cpp_int magnitude = abs(mantissa_);
   const std::string digits = magnitude.str();
   const int size = static_cast<int>(digits.size());
-  if (size > kMaxDigits) fail(digits, fmt::format("at most {} significant digits", kMaxDigits));
+  if (size > kMaxDigits) fail_to_read(digits, fmt::format("at most {} significant digits", kMaxDigits));
   if (size + exponent_ > kMaxMagnitude || size + exponent_ <= -kMaxMagnitude) {
-    fail(fmt::format("{}e{}", digits, exponent_),
-         fmt::format("zero or a magnitude of at least 1e-{0} and below 1e{0}", kMaxMagnitude));
+    fail_to_read(fmt::format("{}e{}", digits, exponent_),
+                 fmt::format("zero or a magnitude of at least 1e-{0} and below 1e{0}", kMaxMagnitude));
   }
 }
 
@@ -69,22 +63,22 @@ Decimal Decimal::parse(std::string_view text) {
   take_any_of(rest, "+-");
   const std::string_view whole = take_digits(rest);
   const std::string_view fraction = take_any_of(rest, ".") ? take_digits(rest) : std::string_view();
-  if (whole.empty() && fraction.empty()) fail(text, what);
-  if (whole.size() + fraction.size() > kMaxDigits) fail(text, fmt::format("at most {} digits", kMaxDigits));
+  if (whole.empty() && fraction.empty()) fail_to_read(text, what);
+  if (whole.size() + fraction.size() > kMaxDigits) fail_to_read(text, fmt::format("at most {} digits", kMaxDigits));
   int exponent = 0;
   if (take_any_of(rest, "eE")) {
     const bool negative_exponent = rest.starts_with('-');
     take_any_of(rest, "+-");
     const std::string_view digits = take_digits(rest);
-    if (digits.empty()) fail(text, what);
+    if (digits.empty()) fail_to_read(text, what);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
     constexpr int kMaxExponent = kMaxDigits + kMaxMagnitude;  // 1000 digits may stand before or after the point
     if (error != std::errc() || exponent > kMaxExponent) {
-      fail(text, fmt::format("zero or a magnitude of at least 1e-{0} and below 1e{0}", kMaxMagnitude));
+      fail_to_read(text, fmt::format("zero or a magnitude of at least 1e-{0} and below 1e{0}", kMaxMagnitude));
     }
     if (negative_exponent) exponent = -exponent;
   }
-  if (!rest.empty()) fail(text, what);
+  if (!rest.empty()) fail_to_read(text, what);
   // cpp_int reads a leading zero as the mark of an octal number.
   std::string digits = std::string(whole) + std::string(fraction);
   digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
@@ -93,7 +87,7 @@ Decimal Decimal::parse(std::string_view text) {
 }
 
 Decimal Decimal::reciprocal_of_power_of_ten() const {
-  if (mantissa_ != 1) fail(text(), "a power of ten");
+  if (mantissa_ != 1) fail_to_read(text(), "a power of ten");
   return Decimal(1, -exponent_);
 }
 
@@ -146,6 +140,20 @@ double ScalarTraits<double>::from_decimal(const std::string& text) {
   };
   if (!read(text)) read(Decimal::parse(text).text());  // a leading plus sign, or not a decimal
   return value;
+}
+
+void fail_to_read(std::string_view text, const std::string& expected) {
+  constexpr std::size_t kShown = 60;
+  throw InputError(
+      fmt::format("got '{}{}', expected {}", text.substr(0, kShown), text.size() > kShown ? "…" : "", expected));
+}
+
+Decimal decimal_at(const std::string& where, std::string_view text) {
+  try {
+    return Decimal::parse(text);
+  } catch (const InputError& error) {
+    throw FieldError(where, "", error.what());
+  }
 }
 
 Decimal decimal_from_json(const JsonCursor& value) {

@@ -49,6 +49,11 @@ class Decimal {
   int exponent_ = 0;
 };
 
+/// @throws InputError that quotes the text and says what was expected instead of it
+[[noreturn]] void fail_to_read(std::string_view text, const std::string& expected);
+
+/// Decimal::parse. @throws FieldError that names the place
+[[nodiscard]] Decimal decimal_at(const std::string& where, std::string_view text);
 /// The decimal in a JSON string. @throws FieldError that names the place
 [[nodiscard]] Decimal decimal_from_json(const JsonCursor& value);
 

@@ -50,7 +50,7 @@ const auto number = [](auto& context) {
   const auto text = _attr(context);
   set_slot(context, text.begin(), [&](TapeBuilder& tape) { return tape.decimal({text.begin(), text.end()}); });
 };
-const auto name = [](auto& context) {
+const auto named = [](auto& context) {
   const auto text = _attr(context);
   set_slot(context, text.begin(), [&](TapeBuilder& tape) { return tape.name({text.begin(), text.end()}); });
 };
@@ -130,7 +130,7 @@ const auto signed_power_def = ('-' > signed_power)[negate] | power_of[keep];
 const auto power_of_def = primary[keep] >> -('^' > exponent)[power];
 const auto function_call = (function > '(' > sum > ')')[call];
 const auto atan2_call = (x3::lexeme["atan2" >> !name_char] > '(' > sum > ',' > sum > ')')[call_atan2];
-const auto primary_def = decimal[number] | ('(' > sum > ')')[keep] | function_call | atan2_call | identifier[name];
+const auto primary_def = decimal[number] | ('(' > sum > ')')[keep] | function_call | atan2_call | identifier[named];
 const auto exponent_def = ('(' > signed_tower > ')')[keep] | signed_tower[keep];
 const auto signed_tower_def = ('-' > tower)[exponent_negate] | tower[keep];
 const auto tower_def = x3::raw[x3::lexeme[digits >> !x3::char_(".A-Za-z_")]][exponent_literal] >>

@@ -23,7 +23,9 @@ using nlohmann::json;
 
 // --- Reading -----------------------------------------------------------------------------------------------------
 
-[[noreturn]] void fail(const std::string& where, const std::string& expected) { throw FieldError(where, "", expected); }
+[[noreturn]] void fail_at(const std::string& where, const std::string& expected) {
+  throw FieldError(where, "", expected);
+}
 
 void read(const JsonCursor& value, std::string& out) { out = value.text(); }
 
@@ -61,7 +63,7 @@ Parameter read_parameter(const JsonCursor& value) {
     kind.fail("\"real\", \"periodic\" or \"range\"");
   }
   if (has_range != (parameter.kind == ParameterKind::kRange)) {
-    fail(value.where(), "expected 'range' exactly where the kind is \"range\"");
+    fail_at(value.where(), "expected 'range' exactly where the kind is \"range\"");
   }
   if (has_range) {
     std::array<ExpressionText, 2> range;
@@ -171,12 +173,8 @@ auto at(const std::string& where, Check check) {
   try {
     return check();
   } catch (const InputError& error) {
-    fail(where, error.what());
+    fail_at(where, error.what());
   }
-}
-
-Decimal decimal_at(const std::string& where, const DecimalText& text) {
-  return at(where, [&] { return Decimal::parse(text); });
 }
 
 using Point = std::array<Decimal, 3>;
@@ -252,7 +250,7 @@ void validate_tolerances(const TolerancesText& tolerances) {
   }
   validate_tolerance("load_point", tolerances.load_point_m);
   for (std::size_t i = 0; i < tolerances.wrench.size(); ++i) {
-    decimal_at(fmt::format("tolerances.wrench[{}]", i), tolerances.wrench[i]);
+    static_cast<void>(decimal_at(fmt::format("tolerances.wrench[{}]", i), tolerances.wrench[i]));
   }
   validate_tolerance("position", tolerances.position_m);
   const double angle = constant_value_approx("tolerances.orientation", tolerances.orientation_rad);
@@ -278,7 +276,8 @@ void validate_angles(const SpaceText& space) {
     throw FieldError("space.angles.axis", fmt::format("[{}]", fmt::join(angles.axis, ", ")),
                      "expected a direction: three numbers, the largest of which is at least 1e-9 and below 1e9");
   }
-  if (space.pose[4] != "0" || space.pose[5] != "0") fail("space.pose", "expected one angle: the turn about the axis");
+  if (space.pose[4] != "0" || space.pose[5] != "0")
+    fail_at("space.pose", "expected one angle: the turn about the axis");
 }
 
 /// Items of a load have tolerances of their own.
@@ -295,7 +294,7 @@ void validate_no_tolerance_of_the_load(const TolerancesText& tolerances) {
 }
 
 void validate_flip(const SpaceText& space, const ExpressionTape& pose) {
-  if (space.angles.kind != AngleKind::kTiltAndTorsion) fail("space.flip", "expected null but for tilt-and-torsion");
+  if (space.angles.kind != AngleKind::kTiltAndTorsion) fail_at("space.flip", "expected null but for tilt-and-torsion");
   const auto [phi, theta] = *space.flip;
   const bool is_phi_theta =
       phi != theta && space.pose[3] == space.parameters[phi].name && space.pose[4] == space.parameters[theta].name &&
@@ -303,9 +302,9 @@ void validate_flip(const SpaceText& space, const ExpressionTape& pose) {
   bool is_elsewhere = false;
   for (const int i : {0, 1, 2, 5}) is_elsewhere |= pose.depends_on(i, phi) || pose.depends_on(i, theta);
   if (!is_phi_theta || is_elsewhere) {
-    fail("space.flip",
-         "expected a periodic and a real parameter that are pose.phi and pose.theta themselves and occur "
-         "in no other expression of the pose");
+    fail_at("space.flip",
+            "expected a periodic and a real parameter that are pose.phi and pose.theta themselves and occur "
+            "in no other expression of the pose");
   }
 }
 
@@ -355,7 +354,7 @@ void validate_constraints(const SpaceText& space, const std::vector<std::string>
 }
 
 void validate_space(const SpaceText& space) {
-  if (space.parameters.empty()) fail("space.parameters", "expected at least one parameter");
+  if (space.parameters.empty()) fail_at("space.parameters", "expected at least one parameter");
   std::vector<std::string> names;
   for (const Parameter& parameter : space.parameters) {
     names.push_back(parameter.name);
@@ -366,7 +365,7 @@ void validate_space(const SpaceText& space) {
     }
   }
   at("space.parameters", [&] { return ExpressionTape({}, names, space.constants); });
-  for (const auto& [name, text] : space.constants) decimal_at("space.constants." + name, text);
+  for (const auto& [name, text] : space.constants) static_cast<void>(decimal_at("space.constants." + name, text));
   for (std::size_t i = 0; i < space.pose.size(); ++i) {
     const bool is_named = i < pose_names(space.angles.kind).size();
     at(is_named ? place(space, i) : "space.pose",

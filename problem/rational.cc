@@ -15,12 +15,6 @@ namespace {
 
 using boost::multiprecision::cpp_int;
 
-[[noreturn]] void fail(std::string_view text, const std::string& expected) {
-  constexpr std::size_t kShown = 60;
-  throw InputError(
-      fmt::format("got '{}{}', expected {}", text.substr(0, kShown), text.size() > kShown ? "…" : "", expected));
-}
-
 bool is_integer(std::string_view digits) {
   return !digits.empty() && digits.size() <= kMaxFractionDigits &&
          std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c); });
@@ -54,18 +48,18 @@ Rational perform(const Instruction& step, const std::vector<Rational>& slots, co
     case Op::kSubtract: return slot(step.a) - slot(step.b);
     case Op::kMultiply: return slot(step.a) * slot(step.b);
     case Op::kDivide:
-      if (slot(step.b) == 0) fail(expression, "no division by zero");
+      if (slot(step.b) == 0) fail_to_read(expression, "no division by zero");
       return slot(step.a) / slot(step.b);
     case Op::kNegate: return -slot(step.a);
     case Op::kPower: {
       const Rational& base = slot(step.a);
       const auto exponent = static_cast<unsigned>(step.b);
-      if (size_of(base) * exponent > kMaxBits) fail(expression, "numbers of fewer digits");
+      if (size_of(base) * exponent > kMaxBits) fail_to_read(expression, "numbers of fewer digits");
       return {pow(cpp_int(numerator(base)), exponent), pow(cpp_int(denominator(base)), exponent)};
     }
     default: break;
   }
-  fail(expression, "a number, or decimals with + - * / ^ and parentheses: the value has to be exact");
+  fail_to_read(expression, "a number, or decimals with + - * / ^ and parentheses: the value has to be exact");
 }
 
 }  // namespace
@@ -77,7 +71,7 @@ Rational parse_rational(std::string_view text) {
   const std::string_view above = text.substr(negative ? 1 : 0, slash - (negative ? 1 : 0));
   const std::string_view below = text.substr(slash + 1);
   if (!is_integer(above) || !is_integer(below) || integer(below) == 0) {
-    fail(text, "a decimal number such as 0.05, or a fraction such as 1/36");
+    fail_to_read(text, "a decimal number such as 0.05, or a fraction such as 1/36");
   }
   const Rational magnitude(integer(above), integer(below));
   return negative ? Rational(-magnitude) : magnitude;
@@ -98,8 +92,8 @@ RationalText rational_text(const Rational& value) {
   const std::string above = cpp_int(abs(numerator(value))).str();
   const std::string below = cpp_int(denominator(value)).str();
   if (std::max(above.size(), below.size()) > kMaxFractionDigits) {
-    fail(above + "/" + below,
-         fmt::format("a fraction with at most {} digits above and below the line", kMaxFractionDigits));
+    fail_to_read(above + "/" + below,
+                 fmt::format("a fraction with at most {} digits above and below the line", kMaxFractionDigits));
   }
   return (value < 0 ? "-" : "") + above + "/" + below;
 }
@@ -109,7 +103,7 @@ Rational evaluate_exactly(const ExpressionText& expression) {
   std::vector<Rational> slots;
   for (const Instruction& step : tape.instructions()) {
     slots.push_back(perform(step, slots, tape.constants(), expression));
-    if (size_of(slots.back()) > kMaxBits) fail(expression, "numbers of fewer digits");
+    if (size_of(slots.back()) > kMaxBits) fail_to_read(expression, "numbers of fewer digits");
   }
   return slots[static_cast<std::size_t>(tape.outputs()[0])];
 }
