@@ -8,8 +8,8 @@
 # Each file is an object library, so that it is compiled with the flags of what it links and of nothing else: the files
 # that compute intervals with taut_rounding, the others without. Most tests take longer to compile than to run, so they
 # are compiled with -O1, unless they compute much themselves (OPTIMIZED): the checker's computing is FLINT's and MPFR's.
-# A folder's files that are TOGETHER are one object library, with the flags of all that they link, and compiled several
-# at a time, since parsing headers is most of the work: a name is no two files' own.
+# A folder's files that are TOGETHER are one object library, with the flags of all that they link, and another one of
+# those that are OPTIMIZED. They are compiled several at a time: a name is no two files' own.
 function(taut_add_test folder name)
   cmake_parse_arguments(ARG "TOGETHER;OPTIMIZED" "PROGRAM;SHARDS;COST;TIMEOUT" "LABELS;LIBS" ${ARGN})
   if(laws IN_LIST ARG_LABELS AND NOT TAUT_LAWS)
@@ -21,11 +21,14 @@ function(taut_add_test folder name)
   set(objects ${folder}_${name}_test)
   if(ARG_TOGETHER)
     set(objects ${folder}_tests)
+    if(ARG_OPTIMIZED)
+      set(objects ${folder}_optimized_tests)
+    endif()
   endif()
   if(NOT TARGET ${objects})
     add_library(${objects} OBJECT)
     if(ARG_TOGETHER)
-      taut_unite(${objects})
+      taut_unite(${objects} OPTIMIZED)
     endif()
   endif()
   target_sources(${objects} PRIVATE ${folder}/${name}_test.cc)

@@ -5,5 +5,5 @@ foreach(header manifold polytope sampled_polytope neighbour_index atlas wrench_f
 endforeach()
 target_sources(atlas_tests PRIVATE atlas/topology.cc)
 foreach(header edge_motion shorten detours path_length sampled_motion_validator time_optimal move_fit)
-  taut_add_test(atlas ${header} LABELS unit LIBS taut::planner)
+  taut_add_test(atlas ${header} LABELS unit LIBS taut::planner TOGETHER)
 endforeach()

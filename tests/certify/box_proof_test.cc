@@ -188,8 +188,8 @@ class BoxEnclosures : public ::testing::Test {
     RecordProperty("refuted", tally.refuted);
   }
 };
-using Arithmetics = ::testing::Types<Fast, Mp128>;
-TYPED_TEST_SUITE(BoxEnclosures, Arithmetics);
+using ProofArithmetics = ::testing::Types<Fast, Mp128>;
+TYPED_TEST_SUITE(BoxEnclosures, ProofArithmetics);
 
 TYPED_TEST(BoxEnclosures, HoldTheOracleOnASlice) { this->expect_random_boxes(slice_space()); }
 TYPED_TEST(BoxEnclosures, HoldTheOracleOnASphere) { this->expect_random_boxes(sphere_space()); }

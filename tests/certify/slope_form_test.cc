@@ -55,8 +55,8 @@ class CenteredForm : public ::testing::Test {
     }
   }
 };
-using Arithmetics = ::testing::Types<Fast, Mp53, Mp128>;
-TYPED_TEST_SUITE(CenteredForm, Arithmetics);
+using FormArithmetics = ::testing::Types<Fast, Mp53, Mp128>;
+TYPED_TEST_SUITE(CenteredForm, FormArithmetics);
 
 struct Polynomial {
   template <class S>

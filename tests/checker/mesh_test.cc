@@ -10,6 +10,7 @@
 #include "certify/arithmetic/mp_interval.h"
 #include "checker/kernel/mesh_clearance.h"
 #include "checker/kernel/mesh_inside.h"
+#include "tests/checker/kernel.h"
 #include "tests/support/meshes.h"
 
 namespace taut::checker {
@@ -30,8 +31,6 @@ Matrix3<Ball> identity() {
   for (std::size_t c = 0; c < 3; ++c) R[c][c] = Ball(1);
   return R;
 }
-
-double approx(const Ball& x) { return arf_get_d(arb_midref(x.get()), ARF_RND_NEAR); }
 
 using Vec = std::array<double, 3>;
 constexpr int kOracleBits = 200;

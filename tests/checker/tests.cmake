@@ -19,5 +19,5 @@ target_compile_definitions(checker_tests PRIVATE TAUT_CHECK="$<TARGET_FILE:taut-
 add_dependencies(checker_tests taut-check)
 taut_add_test(checker agreement LABELS certificates slow LIBS taut::case taut_checker taut::certificate TOGETHER)
 taut_add_test(checker legs LABELS certificates LIBS taut_checker TOGETHER)
-taut_add_test(checker no_path LABELS unit LIBS taut_checker)
+taut_add_test(checker no_path LABELS unit LIBS taut_checker TOGETHER)
 taut_add_test(checker signature LABELS unit LIBS taut_checker taut::certificate OpenSSL::Crypto TOGETHER)

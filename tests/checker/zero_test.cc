@@ -8,6 +8,7 @@
 #include <random>
 
 #include "checker/kernel/errors.h"
+#include "tests/checker/kernel.h"
 #include "tests/support/checker_enclosing.h"
 
 namespace taut::checker {
@@ -78,8 +79,6 @@ bool may_be(const MeanValueForm& form, double u, const BigFloat& value) {
   const WorkingPrecision precision(1024);
   return arb_overlaps((form.at + form.slope * Ball(u)).get(), plus_minus(exactly(value), Ball(1e-50)).get()) != 0;
 }
-double width(const Ball& x) { return 2 * mag_get_d(arb_radref(x.get())); }
-
 TEST(Zero, IsTheOneOfARootForEveryU) {
   // y^2 = 1/4 + u/16.
   const PrecisionScope oracle(200);

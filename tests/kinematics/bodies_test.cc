@@ -48,7 +48,7 @@ BodiesText scene() {
 }
 
 template <class Spoil>
-void expect_rejected(Spoil spoil, const std::string& message) {
+void expect_refused(Spoil spoil, const std::string& message) {
   BodiesText bodies = scene();
   ASSERT_NO_THROW(validate(bodies));
   spoil(bodies);
@@ -117,25 +117,25 @@ TEST(Pairs, HaveTheirZonesOfContact) {
 
 TEST(Bodies, WithWrongContactsAreRejected) {
   const auto with = [](std::vector<ContactText> entries) { return [entries](BodiesText& b) { b.contacts = entries; }; };
-  expect_rejected(with({contact({"deck", "stock"})}), "bodies.contacts[0].pair[1]: got 'stock'");
-  expect_rejected(with({contact({"deck", "tool"})}), "expected two bodies that move");
-  expect_rejected(with({contact({"cable 1", "floor"})}), "bodies.contacts[0].pair: got 'cable 1' and 'floor'");
-  expect_rejected(with({contact({"cable 1", "deck"})}), "expected a body of the platform and an obstacle");
-  expect_rejected(with({contact({"deck", "floor"}), contact({"tool", "floor"})}),
-                  "bodies.contacts[1].pair: got 'tool' and 'floor', expected a body of the platform and an obstacle, "
-                  "neither of them a mesh");
-  expect_rejected(with({contact({"deck", "rock"})}), "neither of them a mesh");
-  expect_rejected(with({contact({"deck", "floor"}, "0")}), "bodies.contacts[0].within: got 0, expected a length > 0");
-  expect_rejected(with({contact({"deck", "floor"}, "nan")}), "bodies.contacts[0].within");
-  expect_rejected(with({contact({"deck", "floor"}, "1", "-0.1")}), "bodies.contacts[0].depth: got -0.1");
-  expect_rejected(with({contact({"deck", "floor"}), contact({"deck", "floor"})}), "the same contact twice");
-  expect_rejected(with({65, contact({"deck", "floor"})}), "bodies.contacts: got 65 contacts, expected at most 64");
-  expect_rejected(
+  expect_refused(with({contact({"deck", "stock"})}), "bodies.contacts[0].pair[1]: got 'stock'");
+  expect_refused(with({contact({"deck", "tool"})}), "expected two bodies that move");
+  expect_refused(with({contact({"cable 1", "floor"})}), "bodies.contacts[0].pair: got 'cable 1' and 'floor'");
+  expect_refused(with({contact({"cable 1", "deck"})}), "expected a body of the platform and an obstacle");
+  expect_refused(with({contact({"deck", "floor"}), contact({"tool", "floor"})}),
+                 "bodies.contacts[1].pair: got 'tool' and 'floor', expected a body of the platform and an obstacle, "
+                 "neither of them a mesh");
+  expect_refused(with({contact({"deck", "rock"})}), "neither of them a mesh");
+  expect_refused(with({contact({"deck", "floor"}, "0")}), "bodies.contacts[0].within: got 0, expected a length > 0");
+  expect_refused(with({contact({"deck", "floor"}, "nan")}), "bodies.contacts[0].within");
+  expect_refused(with({contact({"deck", "floor"}, "1", "-0.1")}), "bodies.contacts[0].depth: got -0.1");
+  expect_refused(with({contact({"deck", "floor"}), contact({"deck", "floor"})}), "the same contact twice");
+  expect_refused(with({65, contact({"deck", "floor"})}), "bodies.contacts: got 65 contacts, expected at most 64");
+  expect_refused(
       [](BodiesText& b) {
         (b.contacts = {contact({"deck", "floor"})})[0].zone.at_m[2] = "x";
       },
       "bodies.contacts[0].at[2]");
-  expect_rejected(
+  expect_refused(
       [](BodiesText& b) {
         b.contacts = {contact({"deck", "floor"})};
         b.clearance_m[0].reset();
@@ -161,26 +161,26 @@ TEST(Pairs, OfExitConesAreTheLast) {
 
 TEST(Bodies, WithWrongExitConesAreRejected) {
   const auto with = [](std::vector<ExitConeText> cones) { return [cones](BodiesText& b) { b.exit_cones = cones; }; };
-  expect_rejected(with({cone(6)}), "bodies.exit_cones[0].cable: got 7, expected a cable, 1 to 6");
-  expect_rejected(with({cone(1), cone(1, CableEnd::kPlatform), cone(1)}),
-                  "bodies.exit_cones[2]: got a second exit cone of cable 2 at the base");
+  expect_refused(with({cone(6)}), "bodies.exit_cones[0].cable: got 7, expected a cable, 1 to 6");
+  expect_refused(with({cone(1), cone(1, CableEnd::kPlatform), cone(1)}),
+                 "bodies.exit_cones[2]: got a second exit cone of cable 2 at the base");
   for (const char* angle : {"0", "-1", "pi/2", "2", "1/0", "x", ""}) {
-    expect_rejected(with({cone(0, CableEnd::kBase, angle)}), "bodies.exit_cones[0].half_angle");
+    expect_refused(with({cone(0, CableEnd::kBase, angle)}), "bodies.exit_cones[0].half_angle");
   }
-  expect_rejected(
+  expect_refused(
       [](BodiesText& b) {
         (b.exit_cones = {cone(0)})[0].axis = {"0", "0", "0"};
       },
       "bodies.exit_cones[0].axis: got [0, 0, 0], expected a direction");
-  expect_rejected([](BodiesText& b) { (b.exit_cones = {cone(0)})[0].axis[1] = "1e9"; }, "below 1e9");
+  expect_refused([](BodiesText& b) { (b.exit_cones = {cone(0)})[0].axis[1] = "1e9"; }, "below 1e9");
 }
 
 TEST(Bodies, WithWrongNamesAreRejected) {
-  expect_rejected([](BodiesText& b) { b.platform[1].name = "floor"; }, "bodies.obstacles[0].name: got 'floor' twice");
-  expect_rejected([](BodiesText& b) { b.platform[0].name = "cable 6"; }, "bodies.platform[0].name: got 'cable 6'");
-  expect_rejected([](BodiesText& b) { b.platform[0].name = ""; }, "expected a name");
-  expect_rejected([](BodiesText& b) { b.platform[0].name = "a\nb"; }, "expected a name");
-  expect_rejected([](BodiesText& b) { b.obstacles.resize(65, b.obstacles[0]); }, "got 65 bodies, expected at most 64");
+  expect_refused([](BodiesText& b) { b.platform[1].name = "floor"; }, "bodies.obstacles[0].name: got 'floor' twice");
+  expect_refused([](BodiesText& b) { b.platform[0].name = "cable 6"; }, "bodies.platform[0].name: got 'cable 6'");
+  expect_refused([](BodiesText& b) { b.platform[0].name = ""; }, "expected a name");
+  expect_refused([](BodiesText& b) { b.platform[0].name = "a\nb"; }, "expected a name");
+  expect_refused([](BodiesText& b) { b.obstacles.resize(65, b.obstacles[0]); }, "got 65 bodies, expected at most 64");
   BodiesText other = scene();
   other.platform[0].name = "cable 7";  // there is none
   EXPECT_NO_THROW(validate(other));
@@ -189,52 +189,51 @@ TEST(Bodies, WithWrongNamesAreRejected) {
 TEST(Bodies, OfImpossibleShapesAreRejected) {
   const auto hull = [](BodiesText& b) -> HullText& { return std::get<HullText>(b.platform[0].shape); };
   const auto tool = [](BodiesText& b) -> MeshText& { return std::get<MeshText>(b.platform[1].shape); };
-  expect_rejected([&](BodiesText& b) { hull(b).points_m.clear(); }, "bodies.platform[deck].points: got 0 points");
-  expect_rejected([&](BodiesText& b) { hull(b).points_m.resize(1001, {"0", "0", "0"}); }, "expected 1 to 1000 points");
-  expect_rejected([&](BodiesText& b) { hull(b).points_m[0][2] = "nan"; }, "bodies.platform[deck].points[0][2]");
-  expect_rejected([&](BodiesText& b) { hull(b).points_m[0][2] = "1/3"; }, "bodies.platform[deck].points[0][2]");
-  expect_rejected([&](BodiesText& b) { hull(b).radius_m = "-0.1"; }, "bodies.platform[deck].radius: got -0.1");
-  expect_rejected(
+  expect_refused([&](BodiesText& b) { hull(b).points_m.clear(); }, "bodies.platform[deck].points: got 0 points");
+  expect_refused([&](BodiesText& b) { hull(b).points_m.resize(1001, {"0", "0", "0"}); }, "expected 1 to 1000 points");
+  expect_refused([&](BodiesText& b) { hull(b).points_m[0][2] = "nan"; }, "bodies.platform[deck].points[0][2]");
+  expect_refused([&](BodiesText& b) { hull(b).points_m[0][2] = "1/3"; }, "bodies.platform[deck].points[0][2]");
+  expect_refused([&](BodiesText& b) { hull(b).radius_m = "-0.1"; }, "bodies.platform[deck].radius: got -0.1");
+  expect_refused(
       [](BodiesText& b) {
         b.obstacles[0].shape = HalfSpaceText{{"0", "0", "0"}};
       },
       "bodies.obstacles[floor].half_space.normal: got [0, 0, 0], expected a direction");
-  expect_rejected([](BodiesText& b) { b.obstacles[0].shape = HalfSpaceText{{"0", "1e9", "0"}}; }, "below 1e9");
-  expect_rejected([](BodiesText& b) { b.obstacles[0].rotation_rad[2] = "1"; }, "bodies.obstacles[floor].half_space");
-  expect_rejected(
+  expect_refused([](BodiesText& b) { b.obstacles[0].shape = HalfSpaceText{{"0", "1e9", "0"}}; }, "below 1e9");
+  expect_refused([](BodiesText& b) { b.obstacles[0].rotation_rad[2] = "1"; }, "bodies.obstacles[floor].half_space");
+  expect_refused(
       [](BodiesText& b) {
         b.platform[0].shape = HalfSpaceText{{"0", "0", "1"}};
       },
       "bodies.platform[deck]: got a half-space on the platform");
-  expect_rejected([&](BodiesText& b) { tool(b).file = ""; }, "bodies.platform[tool].mesh");
-  expect_rejected([&](BodiesText& b) { tool(b).sha256 = std::string(64, 'A'); }, "bodies.platform[tool].sha256");
-  expect_rejected([&](BodiesText& b) { tool(b).sha256.pop_back(); }, "expected 64 lower-case hex digits");
-  expect_rejected([&](BodiesText& b) { tool(b).unit_m = "0"; }, "bodies.platform[tool].unit: got 0");
+  expect_refused([&](BodiesText& b) { tool(b).file = ""; }, "bodies.platform[tool].mesh");
+  expect_refused([&](BodiesText& b) { tool(b).sha256 = std::string(64, 'A'); }, "bodies.platform[tool].sha256");
+  expect_refused([&](BodiesText& b) { tool(b).sha256.pop_back(); }, "expected 64 lower-case hex digits");
+  expect_refused([&](BodiesText& b) { tool(b).unit_m = "0"; }, "bodies.platform[tool].unit: got 0");
 }
 
 TEST(Bodies, WithWrongNumbersAreRejected) {
-  expect_rejected([](BodiesText& b) { b.obstacles[1].clearance_m = "-1"; },
-                  "bodies.obstacles[stack].clearance: got -1");
-  expect_rejected([](BodiesText& b) { b.obstacles[1].at_m[1] = "x"; }, "bodies.obstacles[stack].at[1]");
-  expect_rejected([](BodiesText& b) { b.obstacles[1].rotation_rad[1] = "phi"; }, "obstacles[stack].rotation.pitch");
-  expect_rejected([](BodiesText& b) { b.obstacles[1].rotation_rad[0] = "1/0"; }, "obstacles[stack].rotation.roll");
-  expect_rejected([](BodiesText& b) { b.cables.diameter_m[4] = "-0.01"; }, "bodies.cables.diameter[4]: got -0.01");
-  expect_rejected([](BodiesText& b) { b.cables.free_ends_m[5][1] = "-1"; }, "bodies.cables.free_ends[5][1]: got -1");
-  expect_rejected([](BodiesText& b) { b.clearance_m[2] = "-1"; }, "bodies.clearance.cables-cables: got -1");
+  expect_refused([](BodiesText& b) { b.obstacles[1].clearance_m = "-1"; }, "bodies.obstacles[stack].clearance: got -1");
+  expect_refused([](BodiesText& b) { b.obstacles[1].at_m[1] = "x"; }, "bodies.obstacles[stack].at[1]");
+  expect_refused([](BodiesText& b) { b.obstacles[1].rotation_rad[1] = "phi"; }, "obstacles[stack].rotation.pitch");
+  expect_refused([](BodiesText& b) { b.obstacles[1].rotation_rad[0] = "1/0"; }, "obstacles[stack].rotation.roll");
+  expect_refused([](BodiesText& b) { b.cables.diameter_m[4] = "-0.01"; }, "bodies.cables.diameter[4]: got -0.01");
+  expect_refused([](BodiesText& b) { b.cables.free_ends_m[5][1] = "-1"; }, "bodies.cables.free_ends[5][1]: got -1");
+  expect_refused([](BodiesText& b) { b.clearance_m[2] = "-1"; }, "bodies.clearance.cables-cables: got -1");
 }
 
 TEST(Bodies, WithWrongPairsAreRejected) {
   const auto with = [](std::vector<PairClearanceText> entries) {
     return [entries](BodiesText& b) { b.pair_clearances_m = entries; };
   };
-  expect_rejected(with({{{"deck", "stock"}, "0"}}), "bodies.pair_clearances[0].pair[1]: got 'stock'");
-  expect_rejected(with({{{"deck", "tool"}, "0"}}), "got 'deck' and 'tool', expected two bodies that move");
-  expect_rejected(with({{{"floor", "stack"}, "0"}}), "expected two bodies that move");
-  expect_rejected(with({{{"cable 2", "cable 2"}, "0"}}), "expected two bodies that move");
-  expect_rejected(with({{{"deck", "stack"}, "-0.1"}}), "bodies.pair_clearances[0].clearance: got -0.1");
-  expect_rejected(with({{{"deck", "stack"}, "0.1"}, {{"stack", "deck"}, "0.2"}}),
-                  "bodies.pair_clearances[1].pair: got 'stack' and 'deck' twice");
-  expect_rejected(
+  expect_refused(with({{{"deck", "stock"}, "0"}}), "bodies.pair_clearances[0].pair[1]: got 'stock'");
+  expect_refused(with({{{"deck", "tool"}, "0"}}), "got 'deck' and 'tool', expected two bodies that move");
+  expect_refused(with({{{"floor", "stack"}, "0"}}), "expected two bodies that move");
+  expect_refused(with({{{"cable 2", "cable 2"}, "0"}}), "expected two bodies that move");
+  expect_refused(with({{{"deck", "stack"}, "-0.1"}}), "bodies.pair_clearances[0].clearance: got -0.1");
+  expect_refused(with({{{"deck", "stack"}, "0.1"}, {{"stack", "deck"}, "0.2"}}),
+                 "bodies.pair_clearances[1].pair: got 'stack' and 'deck' twice");
+  expect_refused(
       [](BodiesText& b) {
         b.pair_clearances_m = {{{"deck", "stack"}, "0.1"}};
         b.clearance_m[0].reset();

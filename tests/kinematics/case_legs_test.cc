@@ -21,7 +21,7 @@ using ::testing::ThrowsMessage;
 const std::string kTime = "time: {winches: {speed: 1 m/s}}\n";
 
 /// Items begin on line 12, legs on line 20.
-struct Sections {
+struct LegSections {
   std::string items =
       "    - {name: platform, mass: 8}\n"
       "    - {name: payload, mass: 12, legs: [carry]}\n"
@@ -44,7 +44,7 @@ struct Sections {
   }
 };
 
-CaseOfLegs parse(const Sections& sections) { return parse_case_of_legs(sections.text(), "crane.yaml"); }
+CaseOfLegs parse(const LegSections& sections) { return parse_case_of_legs(sections.text(), "crane.yaml"); }
 
 std::vector<std::string> names_of(const LoadText& load) {
   std::vector<std::string> names;
@@ -52,7 +52,7 @@ std::vector<std::string> names_of(const LoadText& load) {
   return names;
 }
 
-void expect_error(const Sections& sections, const std::string& place, const std::string& what) {
+void expect_error(const LegSections& sections, const std::string& place, const std::string& what) {
   EXPECT_THAT([&] { (void)parse(sections); },
               ThrowsMessage<InputError>(AllOf(StartsWith("crane.yaml:" + place), HasSubstr(what))));
 }
@@ -78,7 +78,7 @@ TEST(CaseLegs, AreCasesWithTheirItemsAndWaypoints) {
 
 TEST(CaseLegs, AreWhatACaseOfTheirOwnWouldSay) {
   const CaseOfLegs read = parse({});
-  std::string text = Sections().text();
+  std::string text = LegSections().text();
   const auto replace = [&](const std::string& old, const std::string& by) {
     const std::size_t at = text.find(old);
     ASSERT_NE(at, std::string::npos) << old;
@@ -93,13 +93,13 @@ TEST(CaseLegs, AreWhatACaseOfTheirOwnWouldSay) {
 }
 
 TEST(CaseLegs, AreRefusedByWhoeverDoesNotAllowThem) {
-  EXPECT_THAT([] { (void)parse_case(Sections().text(), "crane.yaml"); },
+  EXPECT_THAT([] { (void)parse_case(LegSections().text(), "crane.yaml"); },
               ThrowsMessage<InputError>(AllOf(StartsWith("crane.yaml:"), HasSubstr("query.legs: got legs, expected "
                                                                                    "'waypoints'"))));
 }
 
 TEST(CaseLegs, OfUnknownOrDoubledNamesAreErrors) {
-  Sections s;
+  LegSections s;
   s.items = "    - {name: platform, mass: 8, legs: [fetch, fly]}\n";
   expect_error(s, "12:", "expected one of the legs fetch, carry, return");
   s.items = "    - {name: platform, mass: 8, legs: [fetch, fetch]}\n";
@@ -119,7 +119,7 @@ TEST(CaseLegs, OfUnknownOrDoubledNamesAreErrors) {
 }
 
 TEST(CaseLegs, ThatDoNotMeetAreErrors) {
-  Sections s;
+  LegSections s;
   s.legs.replace(s.legs.find("[{px: -4, pz: 6}, {px: 4"), 16, "[{px: -4, pz: 5}");
   expect_error(s, "21:", "expected pz as the leg before it ends");
   s = {};
@@ -133,7 +133,7 @@ TEST(CaseLegs, ThatDoNotMeetAreErrors) {
 }
 
 TEST(CaseLegs, HaveTheirErrorsWhereTheyAreInTheFile) {
-  Sections s;
+  LegSections s;
   s.items.replace(s.items.find("mass: 12"), 8, "mass: -1");
   expect_error(s, "13:", "expected a mass above zero");
   s = {};
@@ -142,7 +142,7 @@ TEST(CaseLegs, HaveTheirErrorsWhereTheyAreInTheFile) {
 }
 
 TEST(CaseLegs, WithoutAnyMassHaveNoMoves) {
-  Sections s;
+  LegSections s;
   s.items =
       "    - {name: weight, force: [70, 80], direction: [0, 0, -1], legs: [fetch, return]}\n"
       "    - {name: payload, mass: 12, legs: [carry]}\n";
@@ -152,7 +152,7 @@ TEST(CaseLegs, WithoutAnyMassHaveNoMoves) {
 }
 
 TEST(CaseLegs, DoNotGoWithWhatHasNoLegsYet) {
-  Sections s;
+  LegSections s;
   s.tail += "audit: {path: a.csv}\n";
   expect_error(s, "24:", "beside 'query.legs', expected none");
   s = {};
@@ -166,7 +166,7 @@ TEST(CaseLegs, DoNotGoWithWhatHasNoLegsYet) {
 // ---- Bodies ---------------------------------------------------------------------------------------------------------
 
 /// Bodies begin on line 24, those of the platform on line 30, obstacles on line 33.
-struct BodySections : Sections {
+struct BodySections : LegSections {
   std::string clearance = "  clearance: {default: 200 mm, cables-cables: 20 mm}\n";
   std::string more = "  pairs: [platform-obstacles, cables-obstacles, cables-cables]\n\n";
   std::string platform =
@@ -180,8 +180,8 @@ struct BodySections : Sections {
       "  contacts: [{pair: [crate, floor], at: [-4, 0, 6], within: 0.3, depth: 0.1}]\n"
       "  pair_clearances: [{pair: [spreader, crate before], clearance: 0.1}, {pair: [crate, floor], clearance: 0.3}]\n";
 
-  [[nodiscard]] Sections whole() const {
-    Sections result = *this;
+  [[nodiscard]] LegSections whole() const {
+    LegSections result = *this;
     result.tail += "bodies:\n" + clearance + "  cables: {diameter: 0.02, free_ends: 0.3}\n" + more + "  platform:\n" +
                    platform + "  obstacles:\n" + obstacles + end;
     return result;

@@ -29,7 +29,7 @@ using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
 /// A portal crane, each of whose sections a test may replace. `time` begins on line 19.
-struct Sections {
+struct TimeSections {
   std::string units = "units: {length: m, force: kN, moment: kN*m, mass: t, angle: deg, time: s}\n";
   std::string load =
       "load:\n"
@@ -56,9 +56,9 @@ struct Sections {
   }
 };
 
-Case parse(const Sections& sections) { return parse_case(sections.text(), "crane.yaml"); }
+Case parse(const TimeSections& sections) { return parse_case(sections.text(), "crane.yaml"); }
 Case with_time(const std::string& time) {
-  Sections sections;
+  TimeSections sections;
   sections.time = time;
   return parse(sections);
 }
@@ -108,7 +108,7 @@ TEST(CaseTime, MayDifferFromWinchToWinch) {
 
 TEST(CaseTime, HasBareNumbersInUnitsThatAreClear) {
   const auto angular_speed = [](const std::string& units, const std::string& text) {
-    Sections sections;
+    TimeSections sections;
     sections.units = "units: {mass: t, force: kN" + units + "}\n";
     sections.time = "time: {load: {angular_speed: " + text + "}}\n";
     return parse(sections).problem.time->load_angular_speed_rad_s.value();
@@ -120,7 +120,7 @@ TEST(CaseTime, HasBareNumbersInUnitsThatAreClear) {
   EXPECT_EQ(*with_time("time: {winches: {power: 60}}\n").problem.time->winch_power_W[0], "60");
 
   const auto rejects = [](const std::string& units, const std::string& time) {
-    Sections sections;
+    TimeSections sections;
     sections.units = "units: {mass: t, force: kN, " + units + "}\n";
     sections.space = "";
     sections.query = "";
@@ -140,7 +140,7 @@ TEST(CaseTime, HasBareNumbersInUnitsThatAreClear) {
 }
 
 TEST(CaseTime, MakesBoxesOfInertiaAPartOfTheLoad) {
-  Sections sections;
+  TimeSections sections;
   const Case in_time = parse(sections);
   const Weight weight = std::get<Weight>(in_time.problem.load.items.at(1).what);
   EXPECT_THAT(weight.inertia_box, Optional(ElementsAre("2.4", "1/3", "2.6")));
@@ -155,7 +155,7 @@ TEST(CaseTime, MakesBoxesOfInertiaAPartOfTheLoad) {
 }
 
 TEST(CaseTime, WarnsOfPartsOfTheLoadWithoutMass) {
-  Sections sections;
+  TimeSections sections;
   sections.load += "    - {name: hook, wrench: [0, 0, -1, 0, 0, 0]}\n";
   const std::vector<std::string> warnings = parse(sections).warnings;
   EXPECT_THAT(warnings,
@@ -166,7 +166,7 @@ TEST(CaseTime, WarnsOfPartsOfTheLoadWithoutMass) {
 }
 
 TEST(CaseTime, MayHaveBoundsOfItsDuration) {
-  Sections sections;
+  TimeSections sections;
   sections.tail = "expect: {verdict: proved, duration: [15, 1 min]}\n";
   const Case read = parse(sections);
   ASSERT_EQ(read.bounds.size(), 1U);
@@ -178,7 +178,7 @@ TEST(CaseTime, MayHaveBoundsOfItsDuration) {
               ThrowsMessage<InputError>(HasSubstr("expect.duration[0]: got '15 m', expected a time")));
 }
 
-void expect_rejected(const Sections& sections, const std::string& message) {
+void expect_rejected(const TimeSections& sections, const std::string& message) {
   EXPECT_THAT([&] { (void)parse(sections); },
               ThrowsMessage<InputError>(AllOf(StartsWith("crane.yaml:"), HasSubstr(message))))
       << sections.text();
@@ -250,14 +250,14 @@ TEST(CaseTime, IsRefusedWithPlaceFieldAndValue) {
       {"time: {load: {speed: 1}, rate: nan}\n", "time.rate: got 'nan', expected a frequency"},
   };
   for (const auto& [time, message] : mistakes) {
-    Sections sections;
+    TimeSections sections;
     sections.time = time;
     expect_rejected(sections, message);
   }
 }
 
 TEST(CaseTime, IsRefusedBesideWhatItDoesNotGoWith) {
-  Sections massless;
+  TimeSections massless;
   massless.load =
       "load:\n"
       "  gravity: [0, 0, -9.81]\n"
@@ -272,11 +272,11 @@ TEST(CaseTime, IsRefusedBesideWhatItDoesNotGoWith) {
       "  mass: 12\n"
       "  ellipsoid: {semi_axes: [1, 1, 1, 1, 1, 1]}\n\n";
   expect_rejected(massless, "expected a load with at least one item of kind 'mass' beside 'time'");
-  Sections around_items;
+  TimeSections around_items;
   around_items.load.insert(around_items.load.find("  items:"), "  ellipsoid: around_items\n");
   expect_rejected(around_items,
                   "crane.yaml:20:7: time: got a load with 'ellipsoid: around_items', expected the items alone");
-  for (Sections sections : {massless, around_items}) {
+  for (TimeSections sections : {massless, around_items}) {
     sections.time = "";
     EXPECT_NO_THROW((void)parse(sections)) << sections.text();
   }
@@ -296,24 +296,24 @@ TEST(CaseTime, RefusesBoxesThatAreNone) {
            {"{}", "load.items[payload].inertia: got no 'box'"}}) {
     for (const bool in_time : {true, false}) {
       if (!in_time && box.find("km") != std::string::npos) continue;
-      Sections sections;
+      TimeSections sections;
       const std::string good = "{box: [2.4, 1/3, 260 cm]}";
       sections.load.replace(sections.load.find(good), good.size(), box);
       if (!in_time) sections.time = "";
       expect_rejected(sections, message);
     }
   }
-  Sections force;
+  TimeSections force;
   force.load += "    - {name: wind, force: 3, direction: any, inertia: {box: [1, 1, 1]}}\n";
   expect_rejected(force, "got 'inertia' beside 'force'");
 }
 
 // --- The problem and its JSON --------------------------------------------------------------------------------------
 
-Problem crane() { return with_time(kAll).problem; }
+Problem timed_crane() { return with_time(kAll).problem; }
 
 TEST(ProblemTime, HasJsonWithKeysInOrder) {
-  const json written = to_json(crane());
+  const json written = to_json(timed_crane());
   EXPECT_EQ(written["time"].dump(), R"({"load_acceleration_m_s2":"0.2","load_angular_acceleration_rad_s2":"0.1",)"
                                     R"("load_angular_speed_rad_s":"(5)*pi/180","load_speed_m_s":"0.8",)"
                                     R"("winch_acceleration_m_s2":["0.5","0.5","0.5","0.5","0.5","0.5"],)"
@@ -327,7 +327,7 @@ TEST(ProblemTime, HasJsonWithKeysInOrder) {
 }
 
 TEST(ProblemTime, ReadsBackWhatItWrote) {
-  Problem partial = crane();
+  Problem partial = timed_crane();
   partial.time->winch_power_W = {};
   partial.time->winch_speed_m_s[2] = std::nullopt;
   partial.time->load_speed_m_s = std::nullopt;
@@ -335,7 +335,7 @@ TEST(ProblemTime, ReadsBackWhatItWrote) {
   EXPECT_TRUE(written["time"]["winch_speed_m_s"][2].is_null());
   EXPECT_FALSE(written["time"].contains("winch_power_W"));
   EXPECT_FALSE(written["time"].contains("load_speed_m_s"));
-  for (const Problem& problem : {crane(), partial, with_time("").problem}) {
+  for (const Problem& problem : {timed_crane(), partial, with_time("").problem}) {
     const Problem again = problem_from_json(json::parse(to_json(problem).dump()));
     EXPECT_EQ(again.time, problem.time);
     EXPECT_EQ(again.load.items, problem.load.items);
@@ -344,7 +344,7 @@ TEST(ProblemTime, ReadsBackWhatItWrote) {
 }
 
 TEST(ProblemTime, RejectsJsonThatIsNone) {
-  const json good = to_json(crane());
+  const json good = to_json(timed_crane());
   ASSERT_NO_THROW((void)problem_from_json(good));
   for (const char* key : {"load_acceleration_m_s2", "load_angular_acceleration_rad_s2", "load_angular_speed_rad_s",
                           "load_speed_m_s", "winch_acceleration_m_s2", "winch_power_W", "winch_speed_m_s"}) {
@@ -386,7 +386,7 @@ TEST(ProblemTime, RejectsJsonThatIsNone) {
 
 template <class Spoil>
 void expect_invalid(Spoil spoil, const std::string& message) {
-  Problem problem = crane();
+  Problem problem = timed_crane();
   ASSERT_NO_THROW(validate(problem));
   spoil(problem);
   EXPECT_THAT([&] { validate(problem); }, ThrowsMessage<FieldError>(StartsWith(message)));
@@ -416,7 +416,7 @@ TEST(ProblemTime, IsValidated) {
 }
 
 TEST(ProblemTime, LeavesTheProblemOfThePathAlone) {
-  const Problem path_alone = without_time(crane());
+  const Problem path_alone = without_time(timed_crane());
   EXPECT_FALSE(path_alone.time);
   EXPECT_NO_THROW(validate(path_alone));
   EXPECT_EQ(to_json(path_alone), to_json(with_time("").problem));

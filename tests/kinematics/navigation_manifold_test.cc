@@ -25,7 +25,7 @@ Pose<S> pose(const std::array<double, 6>& q) {
   return {Vector3<S>(S(q[0]), S(q[1]), S(q[2])), {S(q[3]), S(q[4]), S(q[5])}};
 }
 
-Problem with_full_ellipsoid() {
+Problem with_skewed_ellipsoid() {
   Problem problem = robot1_slice();
   problem.load.ellipsoid.value()[0][1] = problem.load.ellipsoid.value()[1][0] = "3000";
   problem.load.ellipsoid.value()[2][4] = problem.load.ellipsoid.value()[4][2] = "-20000";
@@ -33,7 +33,7 @@ Problem with_full_ellipsoid() {
   return problem;
 }
 
-std::vector<Problem> problems() { return {robot1_slice(), robot2_sphere(), with_full_ellipsoid()}; }
+std::vector<Problem> problems() { return {robot1_slice(), robot2_sphere(), with_skewed_ellipsoid()}; }
 
 /// The largest |x| of a group relative to its own unit is near 1 (but for slacks), so absolute bounds do at 200 bits.
 double largest(const Eigen::Matrix<BigFloat, kNavigationEquations, 1>& f) {
