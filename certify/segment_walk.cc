@@ -438,12 +438,16 @@ std::optional<SegmentWalk::Step> SegmentWalk::refute_contact(const Task& task, c
                                                              std::size_t pair) {
   constexpr int kEvery = 4;   // halvings between two searches, each of which takes some fifty distances
   constexpr int kPlace = 44;  // halvings to a place
+  // Bodies without a depth touch without being inside one another, which no precision tells.
+  constexpr int kMostInVain = 8;
   if (aim_ == ProofAim::kProve) return std::nullopt;
   const PoseSampler& sampler = prover_.sampler();
   const auto judge = [&](const DyadicBox& box) -> std::optional<Step> {
     const RigidPose pose = sampler.rigid_pose(segment_, box.mid().approx());
     const PointPair points = prover_.bodies()->nearest(sampler.model(), pose, pair);
-    for (std::size_t rung = 0; rung <= std::min(ladder_.last(), kSingularRung); ++rung) {
+    int& in_vain = vain_refutations_[pair];
+    const std::size_t last = in_vain < kMostInVain ? std::min(ladder_.last(), kSingularRung) : 0;
+    for (std::size_t rung = 0; rung <= last; ++rung) {
       const Contact contact = ladder_.judge_contact(rung, segment_, box, pair, points);
       if (contact == Contact::kUnknown) continue;
       Step step{Step::Kind::kRefuted, verdict, SegmentWitness{}};
@@ -452,6 +456,7 @@ std::optional<SegmentWalk::Step> SegmentWalk::refute_contact(const Task& task, c
       step.verdict.throughout = contact == Contact::kThroughout;
       return step;
     }
+    ++in_vain;
     return std::nullopt;
   };
   if (gap(pair, task.box.mid().approx()) <= 0) {

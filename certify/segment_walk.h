@@ -13,6 +13,7 @@
 // save boxes of what is proved, and change nothing of what is refuted or left undecided.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -114,8 +115,9 @@ class SegmentWalk {
   std::vector<Task> open_ = {Task{}};
   bool is_over_ = false;
   BoxVerdict last_verdict_;
-  bool motion_given_up_ = false;  ///< somewhere on the segment, with all means
-  int singular_open_ = 0;         ///< boxes next to singular poses, or with an undefined pose, that all means left open
+  bool motion_given_up_ = false;                 ///< somewhere on the segment, with all means
+  std::map<std::size_t, int> vain_refutations_;  ///< of a pair, with all means
+  int singular_open_ = 0;  ///< boxes next to singular poses, or with an undefined pose, that all means left open
   bool deviation_refutes_ = false;  ///< one was found that refutes the segment
 };
 
