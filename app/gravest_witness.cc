@@ -131,9 +131,11 @@ std::optional<GravestWitness::Found> GravestWitness::prove_contact(const Touchin
   const auto& [pair, at, gap] = suspect.contact;
   PathWitness witness;
   witness.at = {true, static_cast<int>(suspect.batch->first_segment + suspect.segment), at};
-  witness.contact =
-      PairContact{pair, prover_.bodies()->nearest(sampler.model(), sampler.rigid_pose(segment, at.approx()), pair)};
-  return elaborated(suspect.batch, suspect.segment, witness);
+  for (PairContact& way : prover_.bodies()->contacts(sampler.model(), sampler.rigid_pose(segment, at.approx()), pair)) {
+    witness.contact = std::move(way);
+    if (auto found = elaborated(suspect.batch, suspect.segment, witness)) return found;
+  }
+  return std::nullopt;
 }
 
 std::optional<GravestWitness::Found> GravestWitness::elaborated(const std::shared_ptr<const Batch>& batch,

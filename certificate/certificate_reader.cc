@@ -393,11 +393,19 @@ std::vector<std::int64_t> read_shares(const JsonCursor& weights) {
 
 /// What `witness` says of two bodies that are too near.
 void read_contact(const JsonCursor& witness, Witness& result) {
-  const std::vector<JsonCursor> weights = witness.at("weights").elements(2);
+  const auto read_weights = [](const JsonCursor& weights) {
+    const std::vector<JsonCursor> of = weights.elements(2);
+    return PointPair{read_shares(of[0]), read_shares(of[1])};
+  };
   constexpr std::int64_t kMostPairs = std::numeric_limits<int>::max();
   PairContact& contact = result.violation.contact.emplace();
   contact.pair = static_cast<std::size_t>(witness.at("pair").integer(0, kMostPairs));
-  contact.points = {read_shares(weights[0]), read_shares(weights[1]), {}, {}};
+  if (witness.contains("around")) {
+    const std::vector<JsonCursor> four = witness.at("around").elements(4);
+    std::ranges::transform(four, contact.around.emplace().begin(), read_weights);
+  } else {
+    contact.points = read_weights(witness.at("weights"));
+  }
   if (witness.contains("inside")) contact.points.inside = witness.at("inside").text() == "first" ? 0 : 1;
   if (witness.contains("elements")) {
     const std::vector<JsonCursor> elements = witness.at("elements").elements(2);

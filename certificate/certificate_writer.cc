@@ -205,12 +205,17 @@ json to_json(const Witness& witness) {
     return result;
   }
   if (violation.contact) {
-    const auto& [pair, points] = *violation.contact;
+    const auto& [pair, points, around] = *violation.contact;
+    const auto weights = [](const PointPair& of) { return json::array({rationals(of.first), rationals(of.second)}); };
     result["kind"] = "contact";
     result["depth_m"] = violation.depth_m;
     result["pair"] = pair;
     if (points.inside) result["inside"] = *points.inside == 0 ? "first" : "second";
-    result["weights"] = json::array({rationals(points.first), rationals(points.second)});
+    if (around) {
+      for (const PointPair& of : *around) result["around"].push_back(weights(of));
+    } else {
+      result["weights"] = weights(points);
+    }
     const auto& [first, second] = points.elements;
     if (first || second || points.inside) {
       result["elements"] = {first ? json(*first) : json(), second ? json(*second) : json()};

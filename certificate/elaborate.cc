@@ -145,6 +145,9 @@ checker::Witness statement(const PathWitness& found, std::size_t k) {
     result.weights = {exact_shares(points.first), exact_shares(points.second)};
     for (std::size_t side = 0; side < 2; ++side) result.elements[side] = points.elements[side];
     result.inside = points.inside;
+    if (const auto& around = found.contact->around) {
+      for (const PointPair& of : *around) result.around.push_back({exact_shares(of.first), exact_shares(of.second)});
+    }
     return result;
   }
   result.cable = static_cast<std::size_t>(found.rate ? found.rate->cable : found.margin.cable);

@@ -926,8 +926,8 @@ BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segme
 namespace {
 
 template <class I>
-Contact contact(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& dyadic, std::size_t pair,
-                const PointPair& points) {
+Contact contact(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& dyadic,
+                const PairContact& found) {
   const double radius = dyadic.radius();
   BoxEnclosure<I> box;
   box.offset = I(-radius, radius);
@@ -940,8 +940,10 @@ Contact contact(const ProofModel<I>& problem, const Segment& segment, const Dyad
   }
   const BodiesBox<I> bodies = bodies_box(problem, box);
   const BodyGaps<I> gaps(bodies);
-  const CheckedPair<I>& checked = problem.bodies->pairs.at(pair);
+  const CheckedPair<I>& checked = problem.bodies->pairs.at(found.pair);
+  const PointPair& points = found.points;
   if (!gaps.have_cables_length()) return Contact::kUnknown;
+  if (found.around) return gaps.meet(checked, *found.around) ? Contact::kThroughout : Contact::kUnknown;
   if (points.inside) return gaps.is_inside_at_mid(checked, points) ? Contact::kAtMid : Contact::kUnknown;
   if (certainly_nonpositive(gaps.distance(checked, points, false))) return Contact::kThroughout;
   return certainly_nonpositive(gaps.distance(checked, points, true)) ? Contact::kAtMid : Contact::kUnknown;
@@ -950,16 +952,16 @@ Contact contact(const ProofModel<I>& problem, const Segment& segment, const Dyad
 }  // namespace
 
 Contact judge_contact(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
-                      std::size_t pair, const PointPair& points) {
+                      const PairContact& found) {
   Contact result = Contact::kUnknown;
-  if (!run_upward([&] { result = contact(problem, segment, box, pair, points); })) return Contact::kUnknown;
+  if (!run_upward([&] { result = contact(problem, segment, box, found); })) return Contact::kUnknown;
   return result;
 }
 
 Contact judge_contact(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
-                      std::size_t pair, const PointPair& points) {
+                      const PairContact& found) {
   Faults<MpInterval>::clear();
-  const Contact result = contact(problem, segment, box, pair, points);
+  const Contact result = contact(problem, segment, box, found);
   return Faults<MpInterval>::raised() ? Contact::kUnknown : result;
 }
 

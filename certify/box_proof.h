@@ -171,16 +171,16 @@ struct BoxVerdict {
                                    double clearance = 0, int continuation_steps = 1,
                                    const PairDirections* directions = nullptr);
 
-/// Where two points of a pair of bodies are too near, on the undisturbed machine.
+/// Where a pair of bodies is certainly not farther apart than required, on the undisturbed machine, as `found` shows.
 enum class Contact {
   kUnknown,
   kAtMid,       ///< certainly at the box's midpoint
   kThroughout,  ///< certainly on all of the box
 };
 [[nodiscard]] Contact judge_contact(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
-                                    std::size_t pair, const PointPair& points);
+                                    const PairContact& found);
 [[nodiscard]] Contact judge_contact(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
-                                    std::size_t pair, const PointPair& points);
+                                    const PairContact& found);
 
 /// Whether on all of the box exactly one motion is proved to exist, with its parameters in their ranges.
 [[nodiscard]] bool is_motion_known(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box);

@@ -43,11 +43,11 @@ BoxVerdict PrecisionLadder::judge(std::size_t rung, const Segment& segment, cons
   return judge_box(multiprecision(rung), segment, box, clearance, continuation_steps, directions);
 }
 
-Contact PrecisionLadder::judge_contact(std::size_t rung, const Segment& segment, const DyadicBox& box, std::size_t pair,
-                                       const PointPair& points) const {
-  if (rung == 0) return taut::judge_contact(fast_, segment, box, pair, points);
+Contact PrecisionLadder::judge_contact(std::size_t rung, const Segment& segment, const DyadicBox& box,
+                                       const PairContact& found) const {
+  if (rung == 0) return taut::judge_contact(fast_, segment, box, found);
   const PrecisionScope precision(bits(rung));
-  return taut::judge_contact(multiprecision(rung), segment, box, pair, points);
+  return taut::judge_contact(multiprecision(rung), segment, box, found);
 }
 
 }  // namespace taut

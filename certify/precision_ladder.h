@@ -36,8 +36,8 @@ class PrecisionLadder {
   [[nodiscard]] BoxVerdict judge(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance,
                                  int continuation_steps, const PairDirections* directions = nullptr) const;
   /// judge_contact() at a rung.
-  [[nodiscard]] Contact judge_contact(std::size_t rung, const Segment& segment, const DyadicBox& box, std::size_t pair,
-                                      const PointPair& points) const;
+  [[nodiscard]] Contact judge_contact(std::size_t rung, const Segment& segment, const DyadicBox& box,
+                                      const PairContact& found) const;
 
  private:
   struct Rung {

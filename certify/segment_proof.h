@@ -18,12 +18,6 @@ namespace taut {
 
 enum class Verdict { kProved, kRefuted, kUndecided };
 
-/// Two points of a pair of bodies that are not farther apart than its clearance.
-struct PairContact {
-  std::size_t pair = 0;  ///< in the order of pairs() of problem/bodies.h
-  PointPair points;
-};
-
 /// What refutes a segment, itself proved: a margin that is not positive at the midpoint of `box`, bodies that are too
 /// near there, or det D of opposite signs at its two ends.
 struct SegmentWitness {

@@ -436,35 +436,40 @@ double SegmentWalk::nearest_place(std::size_t pair, const DyadicBox& box) const 
 /// refuted where it is nearest.
 std::optional<SegmentWalk::Step> SegmentWalk::refute_contact(const Task& task, const BoxVerdict& verdict,
                                                              std::size_t pair) {
-  constexpr int kEvery = 4;   // halvings between two searches, each of which takes some fifty distances
-  constexpr int kPlace = 44;  // halvings to a place
-  // Bodies without a depth touch without being inside one another, which no precision tells.
-  constexpr int kMostInVain = 8;
+  constexpr int kEvery = 4;           // halvings between two searches, each of which takes some fifty distances
+  constexpr int kPlace = 44;          // halvings to a place
+  constexpr double kTouching = 1e-9;  // what floating point may take for the gap of bodies that overlap [m]
+  constexpr int kMostInVain = 8;      // bodies without a volume may touch where no precision tells
   if (aim_ == ProofAim::kProve) return std::nullopt;
   const PoseSampler& sampler = prover_.sampler();
   const auto judge = [&](const DyadicBox& box) -> std::optional<Step> {
     const RigidPose pose = sampler.rigid_pose(segment_, box.mid().approx());
-    const PointPair points = prover_.bodies()->nearest(sampler.model(), pose, pair);
     int& in_vain = vain_refutations_[pair];
     const std::size_t last = in_vain < kMostInVain ? std::min(ladder_.last(), kSingularRung) : 0;
+    const std::vector<PairContact> ways = prover_.bodies()->contacts(sampler.model(), pose, pair);
     for (std::size_t rung = 0; rung <= last; ++rung) {
-      const Contact contact = ladder_.judge_contact(rung, segment_, box, pair, points);
-      if (contact == Contact::kUnknown) continue;
-      Step step{Step::Kind::kRefuted, verdict, SegmentWitness{}};
-      step.witness->box = box;
-      step.witness->contact = PairContact{pair, points};
-      step.verdict.throughout = contact == Contact::kThroughout;
-      return step;
+      for (const PairContact& way : ways) {
+        const Contact contact = ladder_.judge_contact(rung, segment_, box, way);
+        if (contact == Contact::kUnknown) continue;
+        Step step{Step::Kind::kRefuted, verdict, SegmentWitness{}};
+        step.witness->box = box;
+        step.witness->contact = way;
+        step.verdict.throughout = contact == Contact::kThroughout;
+        return step;
+      }
     }
     ++in_vain;
     return std::nullopt;
   };
-  if (gap(pair, task.box.mid().approx()) <= 0) {
+  const bool is_narrow = task.box.depth + 1 >= kPlace;
+  if (const double middle = task.box.mid().approx(); gap(pair, middle) <= kTouching) {
     if (auto step = judge(task.box)) return step;
+    if (is_narrow) return std::nullopt;
+    if (auto step = judge(box_around(BigFloat(middle), task.box, kPlace))) return step;
   }
-  if (task.box.depth % kEvery != 0 || task.box.depth + 1 >= kPlace) return std::nullopt;
+  if (task.box.depth % kEvery != 0 || is_narrow) return std::nullopt;
   const double s = nearest_place(pair, task.box);
-  if (gap(pair, s) > 0) return std::nullopt;
+  if (gap(pair, s) > kTouching) return std::nullopt;
   return judge(box_around(BigFloat(s), task.box, kPlace));
 }
 

@@ -96,6 +96,7 @@ void confirm_violation(const Machine& machine, const Problem& problem, const Pat
 }
 
 Ball witnessed_depth(const Machine& machine, const Geometry& geometry, const Witness& witness) {
+  if (!witness.around.empty()) return depth_around(machine, geometry, witness.pair, witness.around);
   if (!witness.inside) return contact_depth(machine, geometry, witness.pair, witness.weights, witness.elements);
   return depth_inside(machine, geometry, witness.pair, *witness.inside, witness.weights, witness.elements);
 }
@@ -106,8 +107,10 @@ void confirm_contact(const Machine& machine, const Problem& problem, const Path&
   const Ball depth = witnessed_depth(machine, geometry, witness);
   if (certainly_negative(depth)) throw Rejected("the two points are farther apart than the clearance of their pair");
   const Ball excess = depth - Ball(witness.depth);
-  if (certainly_negative(excess))
-    throw Rejected("the two points are nearer to each other by less than the stated depth");
+  if (certainly_negative(excess)) {
+    throw Rejected(witness.around.empty() ? "the two points are nearer to each other by less than the stated depth"
+                                          : "the points show less than the stated depth");
+  }
   if (!certainly_nonnegative(excess)) {
     throw Undefined("the two points may be farther apart than the clearance of their pair, less the stated depth");
   }

@@ -45,7 +45,8 @@ void confirm_violation(const Machine& machine, const Problem& problem, const Pat
 [[nodiscard]] Ball witnessed_depth(const Machine& machine, const Geometry& geometry, const Witness& witness);
 
 /// Confirms that the two points of a witness of contact, of the machine as stated and at its pose, are no farther apart
-/// than the radii around them and the clearance of the pair are together; or that one point is inside of a closed mesh.
+/// than the radii around them and the clearance of the pair are together; or that one point is inside of a closed mesh,
+/// or four pairs of points around a common point.
 /// @throws Rejected where they certainly are; Undefined where that can't be told.
 void confirm_contact(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness);
 

@@ -75,6 +75,15 @@ struct PointPair {
   std::optional<std::size_t> inside = {};  ///< the body, 0 or 1, of which the other's point is inside: a closed mesh
 };
 
+/// What shows that a pair of bodies is not farther apart than required.
+struct PairContact {
+  std::size_t pair = 0;  ///< in the order of pairs() of problem/bodies.h
+  PointPair points;      ///< near each other
+  /// In their place: the vectors from the second to the first of these are around 0, so that both bodies have a common
+  /// point.
+  std::optional<std::array<PointPair, 4>> around = {};
+};
+
 /// A share as a number in [0, 1].
 [[nodiscard]] inline Dyadic dyadic_share(std::int64_t share) { return {share, 30}; }
 

@@ -798,6 +798,16 @@ std::optional<BodySampler::Touching> BodySampler::touching(const Model<double>& 
   return result;
 }
 
+std::vector<PairContact> BodySampler::contacts(const Model<double>& model, const RigidPose& pose,
+                                               std::size_t pair) const {
+  std::vector<PairContact> result{{pair, nearest(model, pose, pair)}};
+  if (has_own_direction(pair) || result.front().points.inside) return result;
+  if (const auto found = touching(model, pose, pair); found && found->around) {
+    result.push_back({pair, {}, found->around});
+  }
+  return result;
+}
+
 namespace {
 
 /// A gap that is not larger than that of a pair, from boxes around meshes. @pre it is not against a half-space

@@ -84,6 +84,10 @@ class BodySampler {
   [[nodiscard]] std::optional<Touching> touching(const Model<double>& model, const RigidPose& pose,
                                                  std::size_t pair) const;
 
+  /// How a contact at a pose may be shown, simple ways first.
+  [[nodiscard]] std::vector<PairContact> contacts(const Model<double>& model, const RigidPose& pose,
+                                                  std::size_t pair) const;
+
   /// How far pairs were apart when last measured: a pair stays apart while no point of it has moved as far.
   struct Carried {
     struct Gap {

@@ -313,15 +313,29 @@ void read_contact(const Cursor& json, const Problem& problem, const Path& path, 
   const auto read_weights = [&](const Cursor& weights) {
     witness.weights = read_contact_weights(weights, witness.pair, witness.inside, problem);
   };
+  const auto read_around = [&](const Cursor& around) {
+    const Bodies& bodies = *problem.bodies;
+    const CheckedPair& pair = bodies.pairs[witness.pair];
+    const bool may_be =
+        pair.kind != PairKind::kExitCone && !bodies.is_against_half_space(pair) && !bodies.has_mesh(pair);
+    around.require(may_be, "no such key, as the pair has a half-space, an exit cone or a mesh");
+    around.require_size(4);
+    around.elements([&](const Cursor& weights, std::size_t) {
+      witness.around.push_back(read_contact_weights(weights, witness.pair, {}, problem));
+    });
+  };
   const auto read_elements = [&](const Cursor& elements) {
     witness.elements = read_contact_elements(elements, witness.pair, witness.inside, problem);
   };
   const auto read_inside = [&](const Cursor& inside) {
     witness.inside = read_contact_inside(inside, witness.pair, problem);
   };
-  json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "inside?", read_inside, "weights", read_weights,
-              "elements?", read_elements, "depth_m", witness.depth, "at", witness_point(witness.at, path), "proof",
-              proof(witness.at_box, witness.at, n), "motion", read_motion);
+  json.object(
+      "kind", ignore, "pair", integer(witness.pair, 0, last), "inside?", read_inside,
+      json.has("around") ? "around" : "weights",
+      [&](const Cursor& here) { json.has("around") ? read_around(here) : read_weights(here); }, "elements?",
+      read_elements, "depth_m", witness.depth, "at", witness_point(witness.at, path), "proof",
+      proof(witness.at_box, witness.at, n), "motion", read_motion);
   json["depth_m"].require(witness.depth >= 0, "a depth >= 0");
   const bool has_mesh = problem.bodies->has_mesh(problem.bodies->pairs[witness.pair]);
   json.require(json.has("elements") == has_mesh, "the key 'elements' where a body of the pair is a mesh");

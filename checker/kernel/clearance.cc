@@ -388,6 +388,27 @@ ContactPoint of_cable(const Machine& machine, const Geometry& geometry, std::siz
   return {machine.base[i] + t * range(geometry.d[i]), machine.bodies->cable_radius[i]};
 }
 
+ContactPoint first_point(const Machine& machine, const Geometry& geometry, std::size_t n, const ContactWeights& weights,
+                         const ContactElements& elements) {
+  const CheckedPair& pair = machine.bodies->pairs.at(n);
+  if (pair.kind != PairKind::kPlatformObstacle) return of_cable(machine, geometry, pair.first, weights[0]);
+  return of_platform(machine.bodies->platform[pair.first], geometry, weights[0], elements[0]);
+}
+
+/// Nothing of a half-space.
+std::optional<ContactPoint> second_point_of(const Machine& machine, const Geometry& geometry, std::size_t n,
+                                            const ContactWeights& weights, const ContactElements& elements) {
+  const PlacedBodies& bodies = *machine.bodies;
+  const CheckedPair& pair = bodies.pairs.at(n);
+  if (pair.kind == PairKind::kCableCable) return of_cable(machine, geometry, pair.second, weights[1]);
+  if (pair.kind == PairKind::kCablePlatform) {
+    return of_platform(bodies.platform[pair.second], geometry, weights[1], elements[1]);
+  }
+  const auto* hull = std::get_if<PlacedHull>(&bodies.obstacles[pair.second]);
+  if (hull == nullptr) return std::nullopt;
+  return of_body(*hull, weights[1], elements[1]);
+}
+
 }  // namespace
 
 std::vector<Ball> clearance_margins(const Machine& machine, const Geometry& geometry, const MarginLoss& loss,
@@ -404,20 +425,43 @@ Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t
     (void)require_longer(machine, geometry, first, Ball());
     return -distance_in_cone(geometry, first, bodies.exit_cones[second]);
   }
-  const bool is_platform = kind == PairKind::kPlatformObstacle;
-  const ContactPoint a = is_platform ? of_platform(bodies.platform[first], geometry, weights[0], elements[0])
-                                     : of_cable(machine, geometry, first, weights[0]);
+  const ContactPoint a = first_point(machine, geometry, pair, weights, elements);
   const Ball allowed = a.radius + bodies.required_at_least(pair, range(geometry.pose.p));
-  const auto from = [&](const ContactPoint& b) { return allowed + b.radius - length_range(a.at - b.at); };
-  if (kind == PairKind::kCableCable) return from(of_cable(machine, geometry, second, weights[1]));
-  if (kind == PairKind::kCablePlatform) {
-    return from(of_platform(bodies.platform[second], geometry, weights[1], elements[1]));
-  }
-  if (const auto* hull = std::get_if<PlacedHull>(&bodies.obstacles[second])) {
-    return from(of_body(*hull, weights[1], elements[1]));
+  if (const auto second_point = second_point_of(machine, geometry, pair, weights, elements)) {
+    return allowed + second_point->radius - length_range(a.at - second_point->at);
   }
   const auto& half_space = std::get<PlacedHalfSpace>(bodies.obstacles[second]);
   return allowed - (dot(half_space.normal, a.at) - half_space.offset) / sqrt(squared_norm(half_space.normal));
+}
+
+Ball depth_around(const Machine& machine, const Geometry& geometry, std::size_t pair,
+                  const std::vector<ContactWeights>& around) {
+  Ball radii;
+  std::array<Vector3<Ball>, 4> v;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const ContactPoint a = first_point(machine, geometry, pair, around.at(k), {});
+    const ContactPoint b = second_point_of(machine, geometry, pair, around.at(k), {}).value();
+    v[k] = a.at - b.at;
+    radii = a.radius + b.radius;
+  }
+  using Face = std::array<std::size_t, 3>;
+  constexpr std::array<Face, 4> kFaces = {Face{1, 2, 3}, Face{0, 3, 2}, Face{0, 1, 3}, Face{0, 2, 1}};
+  const auto determinant = [&v](const Face& face) { return dot(v[face[0]], cross(v[face[1]], v[face[2]])); };
+  const auto is_around = [&](bool (*has_sign)(const Ball&)) {
+    return std::ranges::all_of(kFaces, [&](const Face& face) { return has_sign(determinant(face)); });
+  };
+  if (!is_around(&certainly_positive) && !is_around(&certainly_negative)) {
+    throw Undefined("the points may not be around a common point of the bodies");
+  }
+  std::optional<Ball> low, high;  // ends of the least height of 0 over a face
+  for (const Face& face : kFaces) {
+    const auto& [a, b, c] = face;
+    const Ball height = determinant(face) / length_range(cross(v[b] - v[a], v[c] - v[a]));
+    const Ball least = least_magnitude(height), most = magnitude(height);
+    low = low ? smaller(*low, least) : least;
+    high = high ? smaller(*high, most) : most;
+  }
+  return hull(*low, *high) + radii + machine.bodies->required_at_least(pair, range(geometry.pose.p));
 }
 
 Ball depth_inside(const Machine& machine, const Geometry& geometry, std::size_t n, std::size_t solid,

@@ -71,6 +71,14 @@ namespace taut::checker {
 [[nodiscard]] Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t pair,
                                  const ContactWeights& weights, const ContactElements& elements = {});
 
+/// By how much a pair of hulls or cables is nearer, or deeper in each other, than radii and clearance together allow,
+/// at least, as four pairs of points show [m]: with v_k the vectors from the second point to the first, 0 is inside of
+/// the tetrahedron of the v_k, at least so far from each of its faces.
+/// @pre geometry is that of one place; four pairs of points of bodies that are neither a half-space nor a mesh
+/// @throws Undefined where 0 may be outside, and where a cable may not be longer than its free ends.
+[[nodiscard]] Ball depth_around(const Machine& machine, const Geometry& geometry, std::size_t pair,
+                                const std::vector<ContactWeights>& around);
+
 /// Confirms that this point of one body of a pair is inside of the other, `solid`: 0 the first, 1 the second, a closed
 /// mesh, so that the bodies have it in common. @returns the pair's clearance [m]
 /// @pre geometry is that of one place

@@ -187,8 +187,8 @@ std::string contact_details(const ReportContext& scene, const PathWitness& witne
       distance.distance < 0 ? fmt::format("next to {}", point_in_space(distance.at[0], unit))
                             : fmt::format("at {} of the first and {} of the second",
                                           point_in_space(distance.at[0], unit), point_in_space(distance.at[1], unit));
-  return fmt::format("In floating point they are {} there, {}. {} A point of either body proves it.",
-                     apart_text(distance, unit), points, where);
+  return fmt::format("In floating point they are {} there, {}. {} {} it.", apart_text(distance, unit), points, where,
+                     witness.contact->around ? "Four points of either body prove" : "A point of either body proves");
 }
 
 /// What a violation at the only pose of a certificate means. The checker compares that pose with the waypoints of the
@@ -478,6 +478,10 @@ std::string contact_text(const PathWitness& witness, const BodiesText& bodies, c
   const std::string allowed = quantity(pair.clearance_m, true, units);
   const std::string asked = clearance.sign() == 0 ? "" : fmt::format("; the clearance asked for is {}", allowed);
   const Rational apart = clearance.rational() - depth;
+  if (apart < 0 && witness.contact->around) {
+    const std::string deep = rounded_down(below(Rational(-apart)), 3);
+    return fmt::format("{} are at least {} deep in each other{}", both, quantity(deep, true, units), asked);
+  }
   if (apart <= 0) return fmt::format("{} touch{}", both, asked);
   const Decimal negligible = Decimal::parse("0.000001");  // m
   if (apart < negligible.rational()) {

@@ -373,6 +373,30 @@ TEST(Prover, ProvesAMoveBesideAnObstacleAndRefutesOneIntoIt) {
   EXPECT_EQ(name(*problem.bodies, pairs(*problem.bodies)[low.witness->contact->pair]), "container / stack");
 }
 
+/// Two points of hulls that are not larger than themselves are never shown to be one.
+TEST(Prover, RefutesHullsThatOverlapThoughNoClearanceIsAskedFor) {
+  Problem problem = crane();
+  problem.bodies->clearance_m = {"0", "0", {}, {}};
+  problem.bodies->cables.diameter_m.fill("0");
+  problem.bodies->exit_cones.clear();
+  const auto refuted_pair = [&](const Waypoint& from, const Waypoint& to) -> std::string {
+    const SegmentProof proof = Prover(problem).prove(from, to);
+    if (proof.verdict != Verdict::kRefuted) return fmt::format("{}", proof.reason.text());
+    if (!proof.witness->contact || !proof.witness->contact->around) return "without points around 0";
+    return name(*problem.bodies, pairs(*problem.bodies)[proof.witness->contact->pair]);
+  };
+  EXPECT_EQ(refuted_pair(at({-4, 0, 5, 0, 0, 0}), at({4, 0, 5, 0, 0, 0})), "container / stack");
+  EXPECT_EQ(refuted_pair(at({-4, 0, 5, 0.3, 0.1, 0.2}), at({4, 0, 5, 0.3, 0.1, 0.2})), "container / stack");
+  EXPECT_EQ(refuted_pair(at({0, 0, 5, 0, 0, 0}), at({0.01, 0, 5, 0, 0, 0})), "container / stack");
+  // Across the corner of one that is as thin as paper, and through a cable.
+  problem.bodies->obstacles.resize(1);
+  problem.bodies->obstacles[0] = box_body("sheet", {0.0001, 2, 2}, {-0.3, 0, 3});
+  EXPECT_EQ(refuted_pair(at({-4, 0, 5, 0, 0, 0}), at({4, 0, 5, 0, 0, 0})), "container / sheet");
+  problem.bodies->platform = {box_body("container", {2.4, 6.1, 2.6}, {0, 0, -2.2})};
+  problem.bodies->obstacles[0] = box_body("sheet", {2, 2, 0.0001}, {7.5, 5.75, 10});
+  EXPECT_EQ(refuted_pair(at({-1, 0, 5, 0, 0, 0}), at({1, 0, 5, 0, 0, 0})), "cable 1 / sheet");
+}
+
 TEST(Prover, DecidesAClearanceToAHundredthOfAMillimetre) {
   // Level, over the stack: 3.5 m below P and 2.6 m high, so the gap is pz - 6.1 m and nothing else is nearer.
   for (const auto& [height, expected] : {std::pair{6.30001, Verdict::kProved}, {6.29999, Verdict::kRefuted}}) {

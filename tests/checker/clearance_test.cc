@@ -7,6 +7,7 @@
 
 #include "checker/kernel/box_proof.h"
 #include "tests/checker/bodies_oracle.h"
+#include "tests/soundness/overlap.h"
 
 namespace taut::checker {
 namespace {
@@ -656,6 +657,54 @@ TEST(Contact, IsAsDeepAsTheTwoPointsSay) {
     }
   }
   EXPECT_GT(contacts, 100);
+}
+
+/// An obstacle is moved to where the platform's body is, and corners of both are taken at random.
+TEST(Contact, IsAtLeastAsDeepAsFourPairsOfPointsShow) {
+  const PrecisionScope oracle(kOracleBits);
+  const WorkingPrecision precision(128);
+  std::mt19937_64 random(31);
+  int around = 0;
+  for (int k = 0; k < 40 && !::testing::Test::HasFailure(); ++k) {
+    ClearanceTrial trial = random_trial(random, std::nullopt, 0);
+    trial.bodies().pairs = {{PairKind::kPlatformObstacle, 0, k % 2 == 0 ? 0U : 2U, ratio(uniform(random, 0, 0.1))}};
+    const CheckedPair& pair = trial.bodies().pairs[0];
+    const auto before = trial.at<double>(pair, 0);
+    const auto middle = [](const std::vector<Vec>& points) {
+      Vec sum{0, 0, 0};
+      for (const Vec& x : points) sum = sum + (1.0 / static_cast<double>(points.size())) * x;
+      return sum;
+    };
+    const Vec by = middle(std::get<HullAt<double>>(before.second).points) - middle(before.first.points);
+    for (std::size_t c = 0; c < 3; ++c) trial.from[c] += by[c] + uniform(random, -0.03, 0.03);
+    trial.to = trial.from;
+    trial.path.waypoints = {waypoint(trial.from), waypoint(trial.to)};
+    const Machine machine(trial.problem);
+    const Geometry geometry = commanded_geometry(machine, trial.problem, trial.path, 0, trial.box);
+    const auto there = trial.at<BigFloat>(pair, 0);
+    const auto& second = std::get<HullAt<BigFloat>>(there.second);
+    const BigFloat overlap = campaign::depth_of(there.first.points, second.points).size;
+    const BigFloat depth = overlap + there.first.radius + second.radius + exact<BigFloat>(pair.clearance);
+    const auto corner = [&](std::size_t count) {
+      std::vector<mpq_class> weights(count);
+      weights[random() % count] = 1;
+      return weights;
+    };
+    for (int time = 0; time < 100; ++time) {
+      std::vector<ContactWeights> four(4);
+      for (ContactWeights& of : four) of = {corner(there.first.points.size()), corner(second.points.size())};
+      try {
+        const Ball seen = depth_around(machine, geometry, 0, four);
+        EXPECT_TRUE(overlap > BigFloat(0.0)) << "trial " << k;
+        EXPECT_LE(approx(seen), depth.to_double()) << "trial " << k;
+        EXPECT_GT(approx(seen), pair.clearance.get_d()) << "trial " << k;
+        ++around;
+      } catch (const Undefined&) {
+        continue;
+      }
+    }
+  }
+  EXPECT_GT(around, 100);
 }
 
 }  // namespace

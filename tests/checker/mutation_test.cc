@@ -220,6 +220,8 @@ TEST(Mutation, OfBodiesOnlyTrueStatementsPass) {
                           {{"They are in contact at the other waypoints, too.", std::regex("/witness/at/waypoint: .*")},
                            {"A lesser depth.", std::regex("/witness/depth_m: becomes 1e-400")},
                            {"-0 is 0.", std::regex("/witness/weights/./.: changes its sign"), true}});
+  expect_accepted_mutants("contact_around_a_point", "/witness/around",
+                          {{"-0 is 0.", std::regex("/witness/around/././.: changes its sign"), true}});
   // A direction only says how: whatever it is, what is claimed is proved along it, or not at all.
   expect_accepted_mutants("clearance_of_obstacles", "/segments/0/apart",
                           {{"Another direction will do.", std::regex("/segments/0/apart/.*: (plus .*|becomes 0)")}});

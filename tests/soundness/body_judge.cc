@@ -632,7 +632,8 @@ class BodyJudge {
     }
   }
 
-  /// The two points are points of the bodies, and not farther apart than they may be.
+  /// The two points are points of the bodies, and not farther apart than they may be; or the bodies overlap, by all faces
+  /// of their difference.
   void examine_contact(const PairContact& contact, const MachineAt<BigFloat>& at) {
     if (contact.pair >= pairs_.size()) return breach("refuted by a pair that is not there");
     if (pairs_[contact.pair].cone) {
@@ -657,6 +658,16 @@ class BodyJudge {
       if (sum != PointPair::kWhole) breach("refuted by shares that are not 1 in sum");
       return result;
     };
+    if (contact.around) {
+      for (const PointPair& of : *contact.around) {
+        static_cast<void>(point(solids[0], of.first));
+        static_cast<void>(point(solids[1], of.second));
+      }
+      if (solids[1].is_half_space || signed_distance_of(solids) > required(pairs_[contact.pair], at.pose.p)) {
+        breach("refuted by points around no common point");
+      }
+      return;
+    }
     const Vec<BigFloat> x = point(solids[0], contact.points.first);
     BigFloat apart;
     if (solids[1].is_half_space) {
