@@ -590,8 +590,9 @@ std::optional<TimedMove> time_optimal(const Path& path, const TimedPathProblem& 
     }
     constexpr double kNearEnough = 1.002, kJerkNearEnough = 1.05;
     if ((most <= kNearEnough && most_jerk <= kJerkNearEnough) || tries == problem.most_tries) {
-      // Speeds go with the rate, accelerations with its square.
-      move.law.step_s = rounded_up(move.law.step_s * (most > 1 ? most : std::sqrt(most)));
+      // Speeds go with the rate, accelerations with its square, jerks with its cube.
+      const double of_jerk = std::cbrt(most_jerk / kJerkNearEnough);
+      move.law.step_s = rounded_up(move.law.step_s * std::max(most > 1 ? most : std::sqrt(most), of_jerk));
       return move;
     }
     for (Run& run : runs) run.apply_tightening();

@@ -106,6 +106,22 @@ TEST(TimeOptimal, ASplineKeepsAllLimitsBetweenSamples) {
   }
 }
 
+/// Where tightening does not get there, the whole law is slowed down.
+TEST(TimeOptimal, KeepsALimitOfJerkThatIsFarBelowWhatTheOtherLimitsAllow) {
+  const Problem problem = testing::free_flying(testing::robot2_sphere());
+  const Waypoint a = at(-0.03, 0, 0.3), b = at(0, 0.03, 0.32, 0.3, 0.1, 0.2), c = at(0.03, 0.01, 0.28, 0.2, 0.2);
+  const Path path{{a, a, a, b, c, c, c}, Interpolation::kCubicBSpline};
+  TimedPathProblem timed{problem, {body(0.5, 0.05)}, {}};
+  timed.limits.speed = 0.2;
+  timed.limits.acceleration = 0.4;
+  for (const double jerk : {0.4, 0.04, 0.004, 0.0004}) {
+    timed.limits.jerk = jerk;
+    const auto move = time_optimal(path, timed);
+    ASSERT_TRUE(move);
+    EXPECT_LT(greatest_jerk(path, timed, move->law), 1.1 * jerk) << jerk;
+  }
+}
+
 TEST(TimeOptimal, TensionsAloneBoundTheSpeedWhereTheLoadHasMass) {
   const Problem problem = testing::free_flying(testing::robot2_sphere());
   const Path path{{at(-0.03, 0, 0.3), at(0.03, 0, 0.3), at(0.03, 0.03, 0.3)}};
