@@ -100,12 +100,39 @@ void require_results_apart(const std::filesystem::path& folder, const std::vecto
   }
 }
 
-std::vector<fs::path> outdated_results(const fs::path& folder, const ResultInputs& inputs) {
+namespace {
+
+std::vector<fs::path> results_in(const fs::path& folder) {
   std::vector<fs::path> result = {folder / "path.csv"};
   // What only has the name of a result of ours is the user's.
   if (begins_with(folder / "controller.csv", kControllerFileBegin)) result.push_back(folder / "controller.csv");
   for (const char* table : {"winches.csv", "poses.csv", "poses.tum"}) {
     if (begins_with(folder / table, kMoveTableBegin)) result.push_back(folder / table);
+  }
+  if (begins_with(folder / "report.pdf", "%PDF-")) result.push_back(folder / "report.pdf");
+  return result;
+}
+
+/// The folders of legs, "2-carry".
+std::vector<fs::path> leg_folders(const fs::path& folder) {
+  std::vector<fs::path> result;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const std::size_t dash = name.find_first_not_of("0123456789");
+    if (dash == 0 || dash == std::string::npos || name[dash] != '-') continue;
+    if (fs::is_regular_file(entry.path() / "certificate.json", error)) result.push_back(entry.path());
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<fs::path> outdated_results(const fs::path& folder, const ResultInputs& inputs) {
+  std::vector<fs::path> result = results_in(folder);
+  for (const fs::path& leg : leg_folders(folder)) {
+    for (const fs::path& file : results_in(leg)) result.push_back(file);
+    for (const char* name : {"report.html", "certificate.json"}) result.push_back(leg / name);
   }
   const fs::path file = folder / kInputsFile;
   if (begins_with(file, kInputsBegin) && !is_about(file, inputs)) result.push_back(file);

@@ -44,8 +44,8 @@ class ResultInputs {
 void require_results_apart(const std::filesystem::path& folder, const std::vector<std::string>& read);
 
 /// The files of earlier results in `folder` that must be gone before new ones are renamed into place, path.csv as the
-/// last of them: path.csv, controller.csv and tables of a move, which must never stand beside a certificate that is not
-/// their own, and inputs.txt where it is about other inputs.
+/// last of them: path.csv, controller.csv, tables of a move and report.pdf, which must never stand beside a certificate
+/// that is not their own, all of an earlier plan's legs, and inputs.txt where it is about other inputs.
 [[nodiscard]] std::vector<std::filesystem::path> outdated_results(const std::filesystem::path& folder,
                                                                   const ResultInputs& inputs);
 

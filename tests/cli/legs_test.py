@@ -7,6 +7,7 @@ Usage: legs_test.py TAUT TAUT_CHECK SOURCE_DIR
 import hashlib
 import json
 import os
+import shutil
 import subprocess
 
 from command_line import CASES, CHECK, TAUT, InFolder, interrupt, main, run, text_of
@@ -114,7 +115,10 @@ class Legs(InFolder):
 
     def test_earlier_tables_never_stand_beside_another_certificate(self):
         self.plan()
+        shutil.copytree(self.path("out", "1-fetch"), self.path("out", "4-another"))
+        self.write("out/4-another/notes.txt", "mine\n")
         self.plan(case=self.overloaded, code=1)
+        self.assertEqual(os.listdir(self.path("out", "4-another")), ["notes.txt"])
         self.assertFalse(os.path.exists(self.path("out", "2-carry", "path.csv")))
         self.assertTrue(os.path.exists(self.path("out", "1-fetch", "path.csv")))
 
