@@ -27,7 +27,7 @@
 namespace taut {
 namespace {
 
-/// An error of a gauge: "2 mm", "0.002".
+/// An error of a gauge: "2 mm". A bare number could be meant in the case's units, or in SI.
 double gauge_error(const std::string& text, const char* option, Dimension dimension) {
   if (text.empty()) return 0;
   const auto fail = [&] {
@@ -36,8 +36,9 @@ double gauge_error(const std::string& text, const char* option, Dimension dimens
                                   excerpt(text), dimension_name(dimension), unit_names(dimension)));
   };
   const auto [number, unit] = split_unit(text);
-  const Unit chosen = unit.value_or(si_unit(dimension));
-  if (chosen.dimension != dimension) throw fail();
+  if (!unit && text == "0") return 0;
+  if (!unit || unit->dimension != dimension) throw fail();
+  const Unit& chosen = *unit;
   try {
     const Decimal value = Decimal::parse(number.substr(0, number.find_last_not_of(' ') + 1)) * chosen.factor;
     const double si = ScalarTraits<double>::from_decimal(value.text());
@@ -71,6 +72,7 @@ struct Tally {
   std::array<std::size_t, kAlarmKinds> alarms{};
   std::optional<LastGood> last_good;
   ResidualShares largest;
+  std::optional<double> first_lead_s;  ///< of the first row that has one: the clock may begin at any time
   std::optional<double> most_lag_s, most_lead_s;
 
   void add(const MeasuredRow& row, const RowVerdict& verdict) {
@@ -85,8 +87,10 @@ struct Tally {
     largest.tension = std::max(largest.tension, verdict.shares.tension);
     largest.load = std::max(largest.load, verdict.shares.load);
     if (!verdict.lead_s) return;
-    most_lag_s = std::max(most_lag_s.value_or(-HUGE_VAL), -*verdict.lead_s);
-    most_lead_s = std::max(most_lead_s.value_or(-HUGE_VAL), *verdict.lead_s);
+    if (!first_lead_s) first_lead_s = verdict.lead_s;
+    const double lead_s = *verdict.lead_s - *first_lead_s;
+    most_lag_s = std::max(most_lag_s.value_or(-HUGE_VAL), -lead_s);
+    most_lead_s = std::max(most_lead_s.value_or(-HUGE_VAL), lead_s);
   }
   [[nodiscard]] std::size_t count() const {
     std::size_t sum = 0;
@@ -258,7 +262,7 @@ void Voice::alarm(const Alarm& alarm, const Tally& tally, std::size_t line, cons
     return;
   }
   say(fmt::format("ALARM row {}, line {}, t = {}, s = {}: {}", tally.rows, line,
-                  row.time_s ? in_seconds(*row.time_s) : "-",
+                  row.time_s ? fmt::format("{} s", *row.time_s) : "-",
                   verdict.place ? fmt::format("{:.6g}", *verdict.place) : "-", words(alarm)));
 }
 
@@ -307,7 +311,7 @@ void Voice::end(const Tally& tally, int exit_code, bool is_interrupted) const {
                   tally.bad_lines == 0 ? "" : fmt::format(" {} could not be read.", plural(tally.bad_lines, "line"))));
   if (tally.last_good) {
     const Tally::LastGood& last = *tally.last_good;
-    say(fmt::format("Last good row: {}{}{}.", last.row, last.time_s ? ", t = " + in_seconds(*last.time_s) : "",
+    say(fmt::format("Last good row: {}{}{}.", last.row, last.time_s ? fmt::format(", t = {} s", *last.time_s) : "",
                     last.place ? fmt::format(", s = {:.6g}", *last.place) : ""));
   }
   std::vector<std::string> shares;

@@ -188,8 +188,8 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes of plan and audit, whose verdict is the independent checker's: 0 proved, 1 refuted or no "
       "path, 2 undecided or unchecked, 3 bad input, 4 internal failure or untrustworthy machine. Of the others: 0 "
-      "done, 1 rejected (report) "
-      "or not as expected (regress), 2 interrupted or unchecked, 3 and 4 likewise.");
+      "done, 1 rejected (report), not as expected (regress) or an alarm (monitor), 2 interrupted or unchecked, 3 and 4 "
+      "likewise.");
   const std::vector<Command> commands = add_commands(app);
   checker::refuse_empty_arguments(app);
   try {

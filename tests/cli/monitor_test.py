@@ -43,7 +43,7 @@ class Monitor(InFolder):
     def monitor(self, rows, *options, header=None, end="\n"):
         path = self.write("rows.csv", "\n".join([header or self.header] + rows) + end)
         return run(TAUT, "monitor", self.proved, path, "--length-error", "0.001mm", "--position-error", "0.001mm",
-                   "--orientation-error", "1e-6", *options)
+                   "--orientation-error", "1e-6rad", *options)
 
     def changed(self, row, cable, by):
         """A row of which one length is off."""
@@ -101,7 +101,7 @@ class Monitor(InFolder):
 
     def test_it_answers_at_once_on_a_pipe(self):
         with subprocess.Popen([TAUT, "monitor", self.proved, "--length-error", "0.001mm", "--position-error", "0.001mm",
-                               "--orientation-error", "1e-6"],
+                               "--orientation-error", "1e-6rad"],
                               stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
             def tell(text):
                 process.stdin.write(text.encode())
@@ -177,7 +177,7 @@ class Monitor(InFolder):
         self.assertEqual(said.returncode, 3)
         self.assertIn("[E2]", said.stderr)
         for option, value in (("--length-error", "-1mm"), ("--length-error", "1kN"), ("--tension-error", "x"),
-                              ("--time-error", "1m")):
+                              ("--time-error", "1m"), ("--length-error", "2"), ("--orientation-error", "1")):
             said = run(TAUT, "monitor", self.proved, os.devnull, f"{option}={value}")
             self.assertEqual(said.returncode, 3)
             self.assertRegex(said.stderr, rf"{option}: got .* expected a .* of 0 or more.*\[E1\]")
@@ -198,7 +198,7 @@ class MonitorOfAMove(InFolder):
 
     def monitor(self, text):
         return run(TAUT, "monitor", self.proved, self.write("rows.csv", text), "--length-error", "0.001mm",
-                   "--position-error", "0.001mm", "--orientation-error", "1e-5")
+                   "--position-error", "0.001mm", "--orientation-error", "1e-5rad")
 
     def at(self, name, time):
         """The table, with other times."""
