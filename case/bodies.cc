@@ -196,7 +196,7 @@ std::array<DecimalText, 2> read_free_ends(const Field& field, const Unit& length
   return {read_length(ends[0], length, false), read_length(ends[1], length, false)};
 }
 
-CableBodiesText read_cables(const Field& field, const Unit& length) {
+CableBodiesText read_cables(const Field& field, const Unit& length, const RobotText& robot) {
   const Map map = field.map({"diameter", "free_ends"});
   CableBodiesText cables;
   const Field diameter = map.at("diameter"), free_ends = map.at("free_ends");
@@ -212,6 +212,13 @@ CableBodiesText read_cables(const Field& field, const Unit& length) {
     for (std::size_t i = 0; i < kCables; ++i) cables.free_ends_m[i] = read_free_ends(entries[i], length);
   } else {
     cables.free_ends_m.fill(read_free_ends(free_ends, length));
+  }
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const auto number = [](const DecimalText& text) { return Decimal::parse(text).rational(); };
+    const auto& [at_base, at_platform] = cables.free_ends_m[i];
+    if (number(at_base) + number(at_platform) < number(robot.length_m[i].upper)) continue;
+    free_ends.fail(
+        fmt::format("two that together are shorter than cable {} may get, {} m", i + 1, robot.length_m[i].upper));
   }
   return cables;
 }
@@ -389,7 +396,7 @@ CaseBodies read_bodies(const Field& field, const Units& units, const std::filesy
   if (const auto list = map.find("platform")) bodies.platform = reader.read_list(*list);
   if (const auto list = map.find("obstacles")) bodies.obstacles = reader.read_list(*list);
   const auto cables = map.find("cables");
-  if (cables) bodies.cables = read_cables(*cables, length);
+  if (cables) bodies.cables = read_cables(*cables, length, robot);
   const std::vector<PairClass> checked = checked_classes(map, bodies, cables.has_value());
   if (!checked.empty()) {
     read_clearances(map, length, checked, bodies);

@@ -156,9 +156,9 @@ Explanation explained(Undecided reason) {
           "Two bodies come so near to their clearance that no proof of either verdict was found, a deviation within "
           "the tolerances may bring them nearer, or a cable may be shorter than its free ends.",
           "A path that just touches a clearance; tolerances that use up what is free; cables that meet at an anchor "
-          "with free ends that are too short.",
-          "Keep the path further from the bodies named, state a smaller clearance, smaller tolerances, or longer free "
-          "ends.",
+          "with free ends that are too short; free ends that are together longer than a cable.",
+          "Keep the path further from the bodies named, or state a smaller clearance or smaller tolerances; longer "
+          "free ends of cables that meet, shorter ones of cables that may be shorter than these.",
           "open: bodies were not proved to stay apart: cable 1 / cable 2 [U18].");
     case Undecided::kSlowing:
       return entry(

@@ -321,14 +321,17 @@ std::optional<KeyNumber> clearance_number(const ReportContext& scene, bool is_pr
                             : left > 0 ? fmt::format("about {} {} left", of_left.down(left, kDigits), of_left.name())
                                        : fmt::format("{} {}", of_left.nearest(-left, kDigits), of_left.name());
   const std::string asked = asked_text(nearest, *scene.certificate.problem.bodies, unit);
+  // What is proved is of all pairs and deviations, and may be another pair's.
+  const bool is_of_all = has_bound && scene.distances.least.size() > 1;
+  const char* const of_all = is_of_all ? "of all pairs, at least; nearest of the machine as stated: " : "";
   return KeyNumber{
       "clearance",
       left > 0             ? "Least clearance left"
       : nearest.is_in_cone ? "Out of an exit cone, by about"
                            : "Bodies too near, by about",
       value,
-      fmt::format("{}, {}, {} · {}; sampled{}", scene.bodies->name(nearest.pair), apart_text(nearest, unit), asked,
-                  place_text(scene, scene.samples[k].position), has_bound ? "" : ", not proved"),
+      fmt::format("{}{}, {}, {} · {}; sampled{}", of_all, scene.bodies->name(nearest.pair), apart_text(nearest, unit),
+                  asked, place_text(scene, scene.samples[k].position), has_bound ? "" : ", not proved"),
       worse(nearness_of_bodies(left + nearest.clearance, nearest.clearance,
                                machine_size(scene.certificate.problem.robot)),
             Nearness::kCalm),

@@ -28,6 +28,7 @@ using ::testing::ThrowsMessage;
 /// The crane of the examples: anchors in m.
 RobotText crane() {
   RobotText robot;
+  robot.length_m.fill({"3", "35"});
   robot.base_anchors_m = {{{"15", "10", "15"},
                            {"15", "10", "15"},
                            {"-15", "10", "15"},
