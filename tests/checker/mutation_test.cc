@@ -221,7 +221,8 @@ TEST(Mutation, OfBodiesOnlyTrueStatementsPass) {
                            {"A lesser depth.", std::regex("/witness/depth_m: becomes 1e-400")},
                            {"-0 is 0.", std::regex("/witness/weights/./.: changes its sign"), true}});
   expect_accepted_mutants("contact_around_a_point", "/witness/around",
-                          {{"-0 is 0.", std::regex("/witness/around/././.: changes its sign"), true}});
+                          {{"They are around the point in any order.", std::regex("/witness/around: is reversed")},
+                           {"-0 is 0.", std::regex("/witness/around/././.: changes its sign"), true}});
   // A direction only says how: whatever it is, what is claimed is proved along it, or not at all.
   expect_accepted_mutants("clearance_of_obstacles", "/segments/0/apart",
                           {{"Another direction will do.", std::regex("/segments/0/apart/.*: (plus .*|becomes 0)")}});

@@ -632,8 +632,8 @@ class BodyJudge {
     }
   }
 
-  /// The two points are points of the bodies, and not farther apart than they may be; or the bodies overlap, by all faces
-  /// of their difference.
+  /// The two points are points of the bodies, and not farther apart than they may be; or the bodies overlap, by all
+  /// faces of their difference.
   void examine_contact(const PairContact& contact, const MachineAt<BigFloat>& at) {
     if (contact.pair >= pairs_.size()) return breach("refuted by a pair that is not there");
     if (pairs_[contact.pair].cone) {
