@@ -75,19 +75,18 @@ Case at_rest(Case the_case) {
 
 void announce(const Case& the_case, bool json) {
   for (const std::string& warning : the_case.warnings) complain("warning: " + warning);
-  if (json) return;
+  if (!json) print_problem(the_case);
+}
+
+void print_problem(const Case& the_case) {
   std::string before = "Load: ";
   for (const std::string& line : brief_lines(load_statement(the_case))) {
     print_wrapped(before + sanitize(line), before.front() == ' ' ? 0 : before.size());
     before = std::string(before.size(), ' ');
   }
   if (the_case.problem.time) print_wrapped(time_limits_text(*the_case.problem.time, DisplayUnits(the_case.units)));
-  print_bodies(the_case);
-}
-
-void print_bodies(const Case& the_case) {
   if (!the_case.bodies) return;
-  std::string before = "Bodies: ";
+  before = "Bodies: ";
   for (const std::string& line : lines(bodies_statement(*the_case.bodies))) {
     print_wrapped(before + sanitize(line), before.front() == ' ' ? 0 : before.size());
     before = std::string(before.size(), ' ');

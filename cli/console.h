@@ -36,11 +36,11 @@ void complain(std::string_view message);
 /// The case for a command that looks at poses alone: without limits in time and inertia, which it is warned of.
 [[nodiscard]] Case at_rest(Case the_case);
 
-/// Says on the screen what load was understood, its total and its extremes, and which limits in time; and on stderr
-/// what may not be meant as it was typed. With `json`, on stderr only.
+/// print_problem(); and on stderr what may not be meant as it was typed. With `json`, on stderr only.
 void announce(const Case& the_case, bool json);
-/// Prints which bodies may not touch, if the case states any.
-void print_bodies(const Case& the_case);
+/// Says on the screen what load was understood, its total and its extremes, which limits in time, and which bodies may
+/// not touch.
+void print_problem(const Case& the_case);
 
 /// "\nA load that breaks the limit there: …", where the checker confirmed a witness that names one; else empty.
 [[nodiscard]] std::string load_that_breaks(const LoadText& load, const checker::CheckResult& checked);

@@ -165,8 +165,7 @@ void print(const CaseOfLegs& the_case, const PlannedLegs& planned, const std::ve
     const LegOutcome& leg = legs[k];
     const Summary shown(leg.context, options);
     fmt::print("\nLeg {} of {}, {}\n", k + 1, legs.size(), leg.name);
-    for (const std::string& line : brief_lines(load_statement(leg.the_case))) print_wrapped("Load: " + sanitize(line));
-    print_bodies(leg.the_case);
+    print_problem(leg.the_case);
     print_verdict(verdict_in_full(shown), said(leg.the_case, leg.planned.planned).text);
     print_key_numbers(shown.key_numbers);
     print_remarks(leg.the_case, leg.outcome);

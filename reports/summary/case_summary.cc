@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/sanitize.h"
 #include "certify/path_proof.h"
 #include "problem/decimal.h"
 #include "reports/summary/bodies_statement.h"
@@ -282,6 +283,18 @@ std::string time_text(const Case& the_case, const DisplayUnits& units, const cha
   return text + fmt::format("  Tables have {:.6g} rows a second.\n\n", the_case.move.rate_Hz);
 }
 
+/// Which path an audit is of.
+std::string audit_text(const Case& the_case) {
+  if (!the_case.audit) return "";
+  const AuditedPath& audit = *the_case.audit;
+  std::string text = fmt::format("Audit of '{}'{}", sanitize(audit.file), audit.timed ? ", as a move in time" : "");
+  if (audit.rounding) {
+    text += fmt::format(", each row within a rounding of {}{}", audit.rounding->text(),
+                        audit.rounding->is_of_lengths() ? " in the cables' lengths" : "");
+  }
+  return text + "\n";
+}
+
 std::string waypoints_text(const CaseSummary& summary, const DisplayUnits& units) {
   std::string text;
   for (std::size_t k = 0; k < summary.waypoints.size(); ++k) {
@@ -299,7 +312,7 @@ std::string to_text(const CaseSummary& summary) {
                      robot_text(problem.robot, units) + "\n" + load_text(summary, units) +
                      tolerances_section(problem, units) + stated_bodies_text(summary.source) +
                      space_text(problem.space) + "\n" + time_text(summary.source, units, time_subject(summary.source)) +
-                     fmt::format("Path between waypoints: {}\n", law_text(summary.source));
+                     fmt::format("Path between waypoints: {}\n", law_text(summary.source)) + audit_text(summary.source);
   if (summary.waypoints.empty()) return text + "No query: a case for taut audit.\n";
   return text + waypoints_text(summary, units);
 }

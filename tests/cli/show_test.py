@@ -62,6 +62,8 @@ class Show(unittest.TestCase):
         self.assertEqual((said.returncode, said.stderr), (0, ""))
         self.assertIn("Path between waypoints: a cubic spline of time, which is fitted to the rows", said.stdout)
         self.assertIn("Time (of the move of the audited file, with its times", said.stdout)
+        self.assertIn("Audit of 'portal-20t-table.csv', as a move in time, each row within a rounding of 0.1 mm and "
+                      "0.01 deg\n", said.stdout)
         for wrong in ("as the audited file suggests", "Planned with a jerk", "the move between the waypoints"):
             self.assertNotIn(wrong, said.stdout)
 
