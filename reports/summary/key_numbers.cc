@@ -19,6 +19,12 @@ namespace taut {
 
 namespace {
 
+/// Of a move that may be stopped anywhere, braking may do what samples don't show.
+const char* sampled_text(const ReportContext& scene) {
+  const auto& time = scene.certificate.problem.time;
+  return time && time->stopping_time_s ? "sampled at full speed, not proved" : "sampled, not proved";
+}
+
 constexpr int kDigits = 3;
 
 /// A bound as the exact number that it is. Infinite ones, of which there are none on a path that can be shown, become
@@ -244,7 +250,7 @@ class Cables {
   /// Where, and on what it rests.
   [[nodiscard]] std::string at(double position) const {
     const std::string place = place_text(scene_, position);
-    return use_.source == CableUse::Source::kProved ? place : place + "; sampled, not proved";
+    return use_.source == CableUse::Source::kProved ? place : fmt::format("{}; {}", place, sampled_text(scene_));
   }
 
   const ReportContext& scene_;
@@ -374,7 +380,7 @@ KeyNumber rate_number(const ReportContext& scene, const RateUse& use, bool is_pr
                    is_of_winch(id.kind) ? fmt::format("cable {}, {}", id.cable + 1, size) : size,
                    fmt::format("{} % of {} at t = {} · {}", share,
                                rate_limit_text(*scene.certificate.problem.time, id, units), seconds_text(use.time_s),
-                               is_proved ? "sampled; that the limit is kept is proved" : "sampled, not proved"),
+                               is_proved ? "sampled; that the limit is kept is proved" : sampled_text(scene)),
                    use.share() < 1 ? Nearness::kCalm : Nearness::kOut};
   result.is_of_rate = true;
   return result;
