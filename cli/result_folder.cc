@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include "base/files.h"
@@ -102,6 +104,15 @@ void require_results_apart(const std::filesystem::path& folder, const std::vecto
 
 namespace {
 
+/// Whether a browser has printed a report of ours.
+bool is_printed_report(const fs::path& file) {
+  constexpr std::size_t kHead = 256;
+  std::ifstream stream(file, std::ios::binary);
+  std::string head(kHead, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.starts_with("%PDF-") && head.find("/Title (Motion report: ") != std::string::npos;
+}
+
 std::vector<fs::path> results_in(const fs::path& folder) {
   std::vector<fs::path> result = {folder / "path.csv"};
   // What only has the name of a result of ours is the user's.
@@ -109,19 +120,29 @@ std::vector<fs::path> results_in(const fs::path& folder) {
   for (const char* table : {"winches.csv", "poses.csv", "poses.tum"}) {
     if (begins_with(folder / table, kMoveTableBegin)) result.push_back(folder / table);
   }
-  if (begins_with(folder / "report.pdf", "%PDF-")) result.push_back(folder / "report.pdf");
+  if (is_printed_report(folder / "report.pdf")) result.push_back(folder / "report.pdf");
   return result;
 }
 
-/// The folders of legs, "2-carry".
+/// The folders of legs, "2-carry": of those whose certificate is a part of that in `folder`. Others are the user's.
 std::vector<fs::path> leg_folders(const fs::path& folder) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28U;
   std::vector<fs::path> result;
   std::error_code error;
+  const auto certificate = [&](const fs::path& of) -> std::string {
+    const fs::path file = of / "certificate.json";
+    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > kMostBytes) return "";
+    std::ifstream stream(file, std::ios::binary);  // one that can't be read is left alone
+    return {std::istreambuf_iterator<char>(stream), {}};
+  };
+  std::optional<std::string> whole;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
     const std::size_t dash = name.find_first_not_of("0123456789");
     if (dash == 0 || dash == std::string::npos || name[dash] != '-') continue;
-    if (fs::is_regular_file(entry.path() / "certificate.json", error)) result.push_back(entry.path());
+    const std::string of_leg = certificate(entry.path());
+    if (!whole) whole = certificate(folder);
+    if (!of_leg.empty() && whole->find(of_leg) != std::string::npos) result.push_back(entry.path());
   }
   return result;
 }

@@ -117,8 +117,13 @@ class Legs(InFolder):
         self.plan()
         shutil.copytree(self.path("out", "1-fetch"), self.path("out", "4-another"))
         self.write("out/4-another/notes.txt", "mine\n")
+        shutil.copytree(self.path("out", "1-fetch"), self.path("out", "2024-crane"))
+        certificate = text_of(self.path("out", "2024-crane", "certificate.json"))
+        self.write("out/2024-crane/certificate.json", certificate + "\n\n")
+        mine = sorted(os.listdir(self.path("out", "2024-crane")))
         self.plan(case=self.overloaded, code=1)
         self.assertEqual(os.listdir(self.path("out", "4-another")), ["notes.txt"])
+        self.assertEqual(sorted(os.listdir(self.path("out", "2024-crane"))), mine)
         self.assertFalse(os.path.exists(self.path("out", "2-carry", "path.csv")))
         self.assertTrue(os.path.exists(self.path("out", "1-fetch", "path.csv")))
 

@@ -72,11 +72,15 @@ class Moves(InFolder):
     def test_tables_of_an_earlier_move_do_not_stay(self):
         self.plan()
         self.write("out/poses.tum", "mine\n")
-        self.write("out/report.pdf", "%PDF-1.4 of the move")
+        printed = "%PDF-1.4\n1 0 obj\n<</Title (Motion report: proved)\n" + 300 * "x"
+        self.write("out/report.pdf", printed)
         self.plan(case=self.at_rest)
         self.assertFalse(os.path.exists(self.path("out", "winches.csv")))
         self.assertFalse(os.path.exists(self.path("out", "poses.csv")))
         self.assertFalse(os.path.exists(self.path("out", "report.pdf")))
+        self.write("out/report.pdf", printed.replace("Motion", "My"))
+        self.plan(case=self.at_rest)
+        self.assertTrue(os.path.exists(self.path("out", "report.pdf")))
         self.assertEqual(text_of(self.path("out", "poses.tum")), "mine\n")
         self.assertTrue(os.path.exists(self.path("out", "controller.csv")))
 
