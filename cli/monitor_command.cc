@@ -32,7 +32,7 @@ double gauge_error(const std::string& text, const char* option, Dimension dimens
   if (text.empty()) return 0;
   const auto fail = [&] {
     return InputError(ErrorCode::kUse,
-                      fmt::format("{}: got '{}', expected a {} of 0 or more with its unit, one of {}", option,
+                      fmt::format("{}: got '{}', expected a number of 0 or more with a unit of {}, one of {}", option,
                                   excerpt(text), dimension_name(dimension), unit_names(dimension)));
   };
   const auto [number, unit] = split_unit(text);
