@@ -105,14 +105,20 @@ void confirm_contact(const Machine& machine, const Problem& problem, const Path&
   const Geometry geometry =
       commanded_geometry(machine, problem, path, witness.at.segment, at_place(witness.at, witness.at_box));
   const Ball depth = witnessed_depth(machine, geometry, witness);
-  if (certainly_negative(depth)) throw Rejected("the two points are farther apart than the clearance of their pair");
+  const bool are_around = !witness.around.empty();
+  if (certainly_negative(depth)) {
+    throw Rejected(are_around ? "the points show less depth than their pair may have"
+                              : "the two points are farther apart than the clearance of their pair");
+  }
   const Ball excess = depth - Ball(witness.depth);
   if (certainly_negative(excess)) {
-    throw Rejected(witness.around.empty() ? "the two points are nearer to each other by less than the stated depth"
-                                          : "the points show less than the stated depth");
+    throw Rejected(are_around ? "the points show less than the stated depth"
+                              : "the two points are nearer to each other by less than the stated depth");
   }
   if (!certainly_nonnegative(excess)) {
-    throw Undefined("the two points may be farther apart than the clearance of their pair, less the stated depth");
+    throw Undefined(are_around ? "the points may show less than the stated depth"
+                               : "the two points may be farther apart than the clearance of their pair, less the "
+                                 "stated depth");
   }
 }
 

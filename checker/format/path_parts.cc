@@ -330,12 +330,11 @@ void read_contact(const Cursor& json, const Problem& problem, const Path& path, 
   const auto read_inside = [&](const Cursor& inside) {
     witness.inside = read_contact_inside(inside, witness.pair, problem);
   };
-  json.object(
-      "kind", ignore, "pair", integer(witness.pair, 0, last), "inside?", read_inside,
-      json.has("around") ? "around" : "weights",
-      [&](const Cursor& here) { json.has("around") ? read_around(here) : read_weights(here); }, "elements?",
-      read_elements, "depth_m", witness.depth, "at", witness_point(witness.at, path), "proof",
-      proof(witness.at_box, witness.at, n), "motion", read_motion);
+  const bool is_around = json.has("around");
+  const auto read_points = [&](const Cursor& here) { is_around ? read_around(here) : read_weights(here); };
+  json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "inside?", read_inside,
+              is_around ? "around" : "weights", read_points, "elements?", read_elements, "depth_m", witness.depth, "at",
+              witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, n), "motion", read_motion);
   json["depth_m"].require(witness.depth >= 0, "a depth >= 0");
   const bool has_mesh = problem.bodies->has_mesh(problem.bodies->pairs[witness.pair]);
   json.require(json.has("elements") == has_mesh, "the key 'elements' where a body of the pair is a mesh");

@@ -77,7 +77,7 @@ struct Witness {
   Box to_box;                          ///< likewise
   std::size_t pair = 0;                ///< kContact only, as the next
   ContactWeights weights;              ///< of the two points that are too near to each other
-  std::vector<ContactWeights> around;  ///< four in their place: depth_around()
+  std::vector<ContactWeights> around;  ///< four in their place, or none: depth_around()
   ContactElements elements;
   std::optional<std::size_t> inside;  ///< the body, 0 or 1, of which the other's point is inside: then it has no point
   mpq_class depth;                    ///< >= 0: by how much they are nearer than is allowed, at least [m]

@@ -396,8 +396,8 @@ ContactPoint first_point(const Machine& machine, const Geometry& geometry, std::
 }
 
 /// Nothing of a half-space.
-std::optional<ContactPoint> second_point_of(const Machine& machine, const Geometry& geometry, std::size_t n,
-                                            const ContactWeights& weights, const ContactElements& elements) {
+std::optional<ContactPoint> second_point(const Machine& machine, const Geometry& geometry, std::size_t n,
+                                         const ContactWeights& weights, const ContactElements& elements) {
   const PlacedBodies& bodies = *machine.bodies;
   const CheckedPair& pair = bodies.pairs.at(n);
   if (pair.kind == PairKind::kCableCable) return of_cable(machine, geometry, pair.second, weights[1]);
@@ -427,8 +427,8 @@ Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t
   }
   const ContactPoint a = first_point(machine, geometry, pair, weights, elements);
   const Ball allowed = a.radius + bodies.required_at_least(pair, range(geometry.pose.p));
-  if (const auto second_point = second_point_of(machine, geometry, pair, weights, elements)) {
-    return allowed + second_point->radius - length_range(a.at - second_point->at);
+  if (const auto b = second_point(machine, geometry, pair, weights, elements)) {
+    return allowed + b->radius - length_range(a.at - b->at);
   }
   const auto& half_space = std::get<PlacedHalfSpace>(bodies.obstacles[second]);
   return allowed - (dot(half_space.normal, a.at) - half_space.offset) / sqrt(squared_norm(half_space.normal));
@@ -440,23 +440,21 @@ Ball depth_around(const Machine& machine, const Geometry& geometry, std::size_t 
   std::array<Vector3<Ball>, 4> v;
   for (std::size_t k = 0; k < 4; ++k) {
     const ContactPoint a = first_point(machine, geometry, pair, around.at(k), {});
-    const ContactPoint b = second_point_of(machine, geometry, pair, around.at(k), {}).value();
+    const ContactPoint b = second_point(machine, geometry, pair, around.at(k), {}).value();
     v[k] = a.at - b.at;
     radii = a.radius + b.radius;
   }
-  using Face = std::array<std::size_t, 3>;
-  constexpr std::array<Face, 4> kFaces = {Face{1, 2, 3}, Face{0, 3, 2}, Face{0, 1, 3}, Face{0, 2, 1}};
-  const auto determinant = [&v](const Face& face) { return dot(v[face[0]], cross(v[face[1]], v[face[2]])); };
-  const auto is_around = [&](bool (*has_sign)(const Ball&)) {
-    return std::ranges::all_of(kFaces, [&](const Face& face) { return has_sign(determinant(face)); });
-  };
-  if (!is_around(&certainly_positive) && !is_around(&certainly_negative)) {
+  std::array<Ball, 4> determinants;
+  std::ranges::transform(kTetrahedronFaces, determinants.begin(),
+                         [&v](const auto& face) { return determinant(v[face[0]], v[face[1]], v[face[2]]); });
+  if (!std::ranges::all_of(determinants, certainly_positive) &&
+      !std::ranges::all_of(determinants, certainly_negative)) {
     throw Undefined("the points may not be around a common point of the bodies");
   }
   std::optional<Ball> low, high;  // ends of the least height of 0 over a face
-  for (const Face& face : kFaces) {
-    const auto& [a, b, c] = face;
-    const Ball height = determinant(face) / length_range(cross(v[b] - v[a], v[c] - v[a]));
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& [a, b, c] = kTetrahedronFaces[k];
+    const Ball height = determinants[k] / length_range(cross(v[b] - v[a], v[c] - v[a]));
     const Ball least = least_magnitude(height), most = magnitude(height);
     low = low ? smaller(*low, least) : least;
     high = high ? smaller(*high, most) : most;

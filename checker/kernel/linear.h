@@ -32,6 +32,13 @@ auto dot(const Vector3<S>& a, const Vector3<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 template <class T>
+T determinant(const Vector3<T>& a, const Vector3<T>& b, const Vector3<T>& c) {
+  return dot(a, cross(b, c));
+}
+/// The faces of a tetrahedron: 0 is inside exactly if the determinants of all of them have one sign.
+inline constexpr std::array<std::array<std::size_t, 3>, 4> kTetrahedronFaces = {
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+template <class T>
 T squared_norm(const Vector3<T>& a) {
   return sqr(a[0]) + sqr(a[1]) + sqr(a[2]);
 }

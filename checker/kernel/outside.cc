@@ -242,19 +242,13 @@ Vector3<Ball> mean(const std::vector<Vector3<Ball>>& points, const std::vector<m
   return result;
 }
 
-CellForm determinant(const Vector3<CellForm>& a, const Vector3<CellForm>& b, const Vector3<CellForm>& c) {
-  return dot(a, cross(b, c));
-}
-
 Vector3<Ball> ranges(const Vector3<CellForm>& x) { return {x[0].range(), x[1].range(), x[2].range()}; }
 
 /// Whether a ball about 0 with this radius is certainly in the hull of these, everywhere; for no radius, whether 0 is.
 bool is_around_zero(const std::array<Vector3<CellForm>, 4>& v, const std::optional<Ball>& radius) {
-  using Face = std::array<std::size_t, 3>;
-  constexpr std::array<Face, 4> kFaces = {Face{1, 2, 3}, Face{0, 3, 2}, Face{0, 1, 3}, Face{0, 2, 1}};
   std::array<Ball, 4> shares, faces;
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto& [a, b, c] = kFaces[k];
+    const auto& [a, b, c] = kTetrahedronFaces[k];
     shares[k] = determinant(v[a], v[b], v[c]).range();
     if (radius) faces[k] = *radius * length_range(ranges(cross(v[b] - v[a], v[c] - v[a])));
   }

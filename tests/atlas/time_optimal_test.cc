@@ -58,6 +58,11 @@ double greatest_jerk(const Path& path, const TimedPathProblem& problem, const Ti
   return most;
 }
 
+Path turning_spline() {
+  const Waypoint a = at(-0.03, 0, 0.3), b = at(0, 0.03, 0.32, 0.3, 0.1, 0.2), c = at(0.03, 0.01, 0.28, 0.2, 0.2);
+  return Path{{a, a, a, b, c, c, c}, Interpolation::kCubicBSpline};
+}
+
 TEST(TimeOptimal, ALineTakesAsLongAsItsTrapezoid) {
   const Problem problem = testing::free_flying(testing::robot2_sphere());
   const Path path{{at(-0.03, 0, 0.3), at(0.03, 0, 0.3)}};
@@ -80,8 +85,7 @@ TEST(TimeOptimal, ALineTakesAsLongAsItsTrapezoid) {
 
 TEST(TimeOptimal, ASplineKeepsAllLimitsBetweenSamples) {
   const Problem problem = testing::free_flying(testing::robot2_sphere());
-  const Waypoint a = at(-0.03, 0, 0.3), b = at(0, 0.03, 0.32, 0.3, 0.1, 0.2), c = at(0.03, 0.01, 0.28, 0.2, 0.2);
-  const Path path{{a, a, a, b, c, c, c}, Interpolation::kCubicBSpline};
+  const Path path = turning_spline();
   TimedPathProblem timed{problem, {body(0.5, 0.05)}, {}};
   timed.limits.speed = 0.2;
   timed.limits.acceleration = 0.4;
@@ -109,8 +113,7 @@ TEST(TimeOptimal, ASplineKeepsAllLimitsBetweenSamples) {
 /// Where tightening does not get there, the whole law is slowed down.
 TEST(TimeOptimal, KeepsALimitOfJerkThatIsFarBelowWhatTheOtherLimitsAllow) {
   const Problem problem = testing::free_flying(testing::robot2_sphere());
-  const Waypoint a = at(-0.03, 0, 0.3), b = at(0, 0.03, 0.32, 0.3, 0.1, 0.2), c = at(0.03, 0.01, 0.28, 0.2, 0.2);
-  const Path path{{a, a, a, b, c, c, c}, Interpolation::kCubicBSpline};
+  const Path path = turning_spline();
   TimedPathProblem timed{problem, {body(0.5, 0.05)}, {}};
   timed.limits.speed = 0.2;
   timed.limits.acceleration = 0.4;
