@@ -73,13 +73,22 @@ class Ball {
     return make([&](arb_ptr r) { kArb(r, operands.get()..., bits()); });
   }
   [[nodiscard]] static Ball pi() { return by<arb_const_pi>(); }
+  /// a_0 b_0 + … of n numbers each, which are so far apart in memory.
+  [[nodiscard]] static Ball sum_of_products(slong n, const Ball& a_0, slong a_step, const Ball& b_0, slong b_step) {
+    static_assert(sizeof(Ball) == sizeof(arb_struct));
+    Ball result;
+    arb_dot(result.x_, nullptr, 0, a_0.x_, a_step, b_0.x_, b_step, n, bits());
+    return result;
+  }
 
-  friend Ball operator+(const Ball& a, const Ball& b) { return by<arb_add>(a, b); }
-  friend Ball operator-(const Ball& a, const Ball& b) { return by<arb_sub>(a, b); }
-  friend Ball operator*(const Ball& a, const Ball& b) { return by<arb_mul>(a, b); }
+  friend Ball operator+(const Ball& a, const Ball& b) { return finite<arb_add>(a, b); }
+  friend Ball operator-(const Ball& a, const Ball& b) { return finite<arb_sub>(a, b); }
+  friend Ball operator*(const Ball& a, const Ball& b) { return finite<arb_mul>(a, b); }
   friend Ball operator/(const Ball& a, const Ball& b) { return by<arb_div>(a, b); }
   friend Ball operator-(const Ball& a) {
-    return make([&](arb_ptr r) { arb_neg(r, a.x_); });
+    Ball result;
+    arb_neg(result.x_, a.x_);
+    return result;
   }
   Ball& operator+=(const Ball& b) {
     arb_add(x_, x_, b.x_, bits());
@@ -94,8 +103,21 @@ class Ball {
     arb_addmul(x_, a.x_, b.x_, bits());
     return *this;
   }
+  /// *this -= a b
+  Ball& subtract_product(const Ball& a, const Ball& b) {
+    arb_submul(x_, a.x_, b.x_, bits());
+    return *this;
+  }
 
  private:
+  /// by(), of a function whose results are finite.
+  template <auto kArb>
+  [[nodiscard]] static Ball finite(const Ball& a, const Ball& b) {
+    Ball result;
+    kArb(result.x_, a.x_, b.x_, bits());
+    return result;
+  }
+
   arb_t x_;
 };
 

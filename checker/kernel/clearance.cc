@@ -235,11 +235,11 @@ class Clearances {
     if (axes == along.axes) return {dot(along.u, x) / along.size, Ball()};
     if (axes == Axes::kPlatform) {
       return {(dot(along.u, geometry_.pose.p) + dot(turned(along), x)).range() / along.size,
-              shift_.position + shift_.turn * length_bound(x)};
+              shift_.position + shift_.turn * length_bound(x).ball()};
     }
     const Vector3<MeanValueForm> from_p = from_origin(x);
     return {dot(turned(along), from_p).range() / along.size,
-            shift_.position + shift_.turn * length_bound(range(from_p))};
+            shift_.position + shift_.turn * length_bound(range(from_p)).ball()};
   }
   /// x - p, of a point that stands still in W.
   [[nodiscard]] Vector3<MeanValueForm> from_origin(const Vector3<Ball>& x) const {
@@ -286,10 +286,10 @@ class Clearances {
     const Ball& beta = machine_.tolerances->base_anchors[i];
     const Ball& mu = machine_.tolerances->platform_anchors[i];
     if (axes == Axes::kWorld) {
-      return {beta, shift_.position + shift_.turn * length_bound(machine_.platform[i]) + mu};
+      return {beta, shift_.position + shift_.turn * length_bound(machine_.platform[i]).ball() + mu};
     }
     const Vector3<MeanValueForm> from_p = from_origin(machine_.base[i]);
-    return {beta + shift_.position + shift_.turn * length_bound(range(from_p)), mu};
+    return {beta + shift_.position + shift_.turn * length_bound(range(from_p)).ball(), mu};
   }
 
   /// Radii of the balls around both cuts.

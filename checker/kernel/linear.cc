@@ -39,7 +39,7 @@ MeanValueForm norm(const Vector3<MeanValueForm>& a) {
   const Vector3<Ball> x = {a[0].at, a[1].at, a[2].at};
   const Vector3<Ball> y = {a[0].slope, a[1].slope, a[2].slope};
   const Ball both = length_range(x) + length_range(range(a));
-  Ball z = plus_minus(length_bound(y));
+  Ball z = plus_minus(Ball(), length_bound(y));
   if (certainly_positive(both)) z = intersection(z, dot(y, x + range(a)) / both);
   return {length_range(x), std::move(z)};
 }

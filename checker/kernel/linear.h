@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "checker/kernel/bound.h"
 #include "checker/kernel/mean_value_form.h"
 
 namespace taut::checker {
@@ -27,9 +28,20 @@ template <class T>
 Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+inline Vector3<Ball> cross(const Vector3<Ball>& a, const Vector3<Ball>& b) {
+  const auto entry = [&](std::size_t j, std::size_t k) { return (a[j] * b[k]).subtract_product(a[k], b[j]); };
+  return {entry(1, 2), entry(2, 0), entry(0, 1)};
+}
 template <class S, class T>
 auto dot(const Vector3<S>& a, const Vector3<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Ball dot(const Vector3<Ball>& a, const Vector3<Ball>& b) { return Ball::sum_of_products(3, a[0], 1, b[0], 1); }
+inline Ball dot(const Vector6<Ball>& a, const Vector6<Ball>& b) { return Ball::sum_of_products(6, a[0], 1, b[0], 1); }
+/// The sum of c_i v_i.
+inline Vector3<Ball> combination(const Vector6<Ball>& c, const std::array<Vector3<Ball>, 6>& v) {
+  const auto entry = [&](std::size_t k) { return Ball::sum_of_products(6, c[0], 1, v[0][k], 3); };
+  return {entry(0), entry(1), entry(2)};
 }
 template <class T>
 T determinant(const Vector3<T>& a, const Vector3<T>& b, const Vector3<T>& c) {
@@ -72,10 +84,8 @@ Matrix3<T> multiply(const Matrix3<T>& A, const Matrix3<T>& B) {
   return transposed<T>({multiply(A, columns[0]), multiply(A, columns[1]), multiply(A, columns[2])});
 }
 
-/// A number that is at least the Euclidean length of every vector in a.
-inline Ball length_bound(const Vector3<Ball>& a) {
-  return highest(sqrt(sqr(magnitude(a[0])) + sqr(magnitude(a[1])) + sqr(magnitude(a[2]))));
-}
+/// Of the Euclidean length of every vector in a.
+inline Bound length_bound(const Vector3<Ball>& a) { return hypot(Bound(a[0]), Bound(a[1]), Bound(a[2])); }
 /// The Euclidean length of every vector in a.
 template <std::size_t N>
 Ball length_range(const std::array<Ball, N>& a) {
@@ -101,6 +111,9 @@ Matrix6<Ball> map(const Matrix6<T>& A, const Map& f) {
     for (std::size_t j = 0; j < 6; ++j) result[i][j] = f(A[i][j]);
   }
   return result;
+}
+inline Vector6<Ball> multiply(const Matrix6<Ball>& A, const Vector6<Ball>& x) {
+  return {dot(A[0], x), dot(A[1], x), dot(A[2], x), dot(A[3], x), dot(A[4], x), dot(A[5], x)};
 }
 template <class T>
 Vector6<T> multiply(const Matrix6<Ball>& A, const Vector6<T>& x) {

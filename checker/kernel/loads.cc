@@ -9,9 +9,15 @@ namespace {
 /// v / |v| for each v != 0; where v may be 0, every vector of length up to 1.
 Vector3<Ball> direction(const Vector3<Ball>& v) {
   const Ball unit = plus_minus(Ball(1));
-  const Ball length = length_range(v);
+  const Ball squared = dot(v, v);
+  const Ball length = certainly_positive(squared) ? sqrt(squared) : length_range(v);
   if (!certainly_positive(length)) return {unit, unit, unit};
-  return {intersection(v[0] / length, unit), intersection(v[1] / length, unit), intersection(v[2] / length, unit)};
+  const Ball inverse = Ball(1) / length;
+  const auto entry = [&](const Ball& x) {
+    const Ball result = x * inverse;
+    return is_within(result, unit) ? result : intersection(result, unit);
+  };
+  return {entry(v[0]), entry(v[1]), entry(v[2])};
 }
 
 Wrench wrench_of(const Vector3<Ball>& vector, bool is_moment) {
@@ -105,25 +111,42 @@ MeanValueForm Load::above(const Lever<MeanValueForm>& y) const {
   return std::visit(Overloaded{of_mass, of_round, of_corners}, set_);
 }
 
-std::vector<Wrench> Load::maximizers(const Lever<Ball>& y) const {
-  std::vector<Wrench> result;
+Load::Extremes Load::extremes(const Lever<Ball>& y) const {
+  Extremes result;
   const auto of_mass = [&](const Mass& x) {
-    const Vector3<Ball> across = cross(x.gravity, y.m);
-    const Vector3<Ball> e = x.offset * direction(across);
-    const Ball slope = dot(y.g, x.gravity) + x.offset * length_range(across);  // A + B
-    const Wrench per_mass = {x.gravity, cross(e, x.gravity)};
-    if (!certainly_positive(slope)) result.push_back({x.least * per_mass.force, x.least * per_mass.moment});
-    if (!certainly_negative(slope)) result.push_back({x.most * per_mass.force, x.most * per_mass.moment});
+    const Ball A = dot(y.g, x.gravity);
+    Ball B;
+    Vector3<Ball> moment;  // of what is at rho towards B, per mass
+    if (!x.offset.is_zero()) {
+      const Vector3<Ball> across = cross(x.gravity, y.m);
+      B = x.offset * length_range(across);
+      moment = cross(x.offset * direction(across), x.gravity);
+    }
+    const auto add = [&](std::vector<Wrench>& to, const Ball& slope, const Vector3<Ball>& per_mass) {
+      const auto add_mass = [&](const Ball& mass) { to.push_back({mass * x.gravity, mass * per_mass}); };
+      const bool is_exact = x.half_range.is_zero();
+      if (!is_exact && !certainly_positive(slope)) add_mass(x.least);
+      if (is_exact || !certainly_negative(slope)) add_mass(x.most);
+    };
+    add(result.least, B - A, -moment);
+    add(result.most, A + B, moment);
   };
   const auto of_round = [&](const Round& x) {
-    const Vector3<Ball> v = multiply(x.projection, x.is_moment ? y.m : y.g);
-    result.push_back(wrench_of(x.radius * direction(v), x.is_moment));
+    const Vector3<Ball> v = x.radius * direction(multiply(x.projection, x.is_moment ? y.m : y.g));
+    result = {{wrench_of(-v, x.is_moment)}, {wrench_of(v, x.is_moment)}};
   };
   const auto of_corners = [&](const Corners& x) {
-    Ball least = lowest(of(y, x.from_nominal.front()));
-    for (const Wrench& w : x.from_nominal) least = larger(least, lowest(of(y, w)));
-    for (const Wrench& w : x.from_nominal) {
-      if (!certainly_negative(of(y, w) - least)) result.push_back(nominal_ + w);
+    std::vector<Ball> values;
+    for (const Wrench& w : x.from_nominal) values.push_back(of(y, w));
+    Ball most_of_least = highest(values.front()), least_of_most = lowest(values.front());
+    for (const Ball& value : values) {
+      most_of_least = smaller(most_of_least, highest(value));
+      least_of_most = larger(least_of_most, lowest(value));
+    }
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      const Wrench w = nominal_ + x.from_nominal[n];
+      if (!certainly_positive(values[n] - most_of_least)) result.least.push_back(w);
+      if (!certainly_negative(values[n] - least_of_most)) result.most.push_back(w);
     }
   };
   std::visit(Overloaded{of_mass, of_round, of_corners}, set_);

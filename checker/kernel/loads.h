@@ -81,8 +81,12 @@ class Load {
   /// w_nominal about the load point, in axes of W.
   [[nodiscard]] Vector6<MeanValueForm> nominal_about_load_point(const Matrix3<MeanValueForm>& R) const;
   [[nodiscard]] MeanValueForm above(const Lever<MeanValueForm>& y) const;
-  /// Wrenches about c, in the item's axes, of which one attains max_S, for each y in the balls.
-  [[nodiscard]] std::vector<Wrench> maximizers(const Lever<Ball>& y) const;
+  /// Wrenches about c, in the item's axes.
+  struct Extremes {
+    std::vector<Wrench> least, most;
+  };
+  /// For each y in the balls one of the first attains min_S, and one of the others max_S.
+  [[nodiscard]] Extremes extremes(const Lever<Ball>& y) const;
   /// T for the row of which `y` is. @param R  of the pose
   [[nodiscard]] Vector3<Ball> turning(const Matrix3<Ball>& R, const Vector6<Ball>& y, const Wrench& w) const;
 

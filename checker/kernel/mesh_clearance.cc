@@ -61,7 +61,7 @@ class MarginSearch {
   void add_shifts(MeshPiece& piece, bool is_first) const {
     if (!is_first || !moves_) return;
     for (const Vector3<Ball>& f : piece.places) {
-      const Ball lever = length_bound(first_->at + multiply(first_->R, first_->unit * f));
+      const Ball lever = length_bound(first_->at + multiply(first_->R, first_->unit * f)).ball();
       piece.shifts.push_back(shift_.position + shift_.turn * lever);
     }
   }

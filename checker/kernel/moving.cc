@@ -184,13 +184,15 @@ void add_weight(const Weight& weight, const LoadItem& item, const Machine& machi
   };
   const Vector3<Ball> moment =
       cross(multiply(rates.R, arm), force) + momentum(rates.spin_change) + cross(rates.spin, momentum(rates.spin));
-  const Ball q = length_bound(rates.spin_change) + sqr(length_bound(rates.spin));
-  const Ball c_size = length_bound(c);
-  Ball largest;
-  for (const Ball& x : moments) largest = larger(largest, magnitude(x));
-  const Ball of_force = highest(magnitude(mass) * c_size * q);
+  const Bound spin = length_bound(rates.spin);
+  const Bound q = length_bound(rates.spin_change) + spin * spin;
+  const Bound two = Bound::power_of_two(1);
+  const Bound of_acceleration = Bound(mass) * length_bound(c) * q;
+  Bound largest;
+  for (const Ball& x : moments) largest = larger(largest, Bound(x));
+  const Ball of_force = of_acceleration.ball();
   const Ball of_moment =
-      highest(magnitude(mass) * length_bound(arm) * (length_bound(a) + Ball(2) * c_size * q) + Ball(2) * largest * q);
+      (length_bound(arm) * (Bound(mass) * length_bound(a) + two * of_acceleration) + two * largest * q).ball();
   for (std::size_t i = 0; i < 3; ++i) {
     to.inertia[i] += force[i];
     to.inertia[3 + i] += moment[i];

@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "checker/kernel/linear.h"
 #include "tests/support/checker_enclosing.h"
 #include "tests/support/interval_operations.h"
 
@@ -151,12 +152,13 @@ TYPED_TEST(BallLaws, SumsInPlaceHoldWhatTheSumHolds) {
   Operands operands(9);
   for (int n = 0; n < 2000; ++n) {
     const Operand x = operands.interval(), y = operands.interval(), z = operands.interval();
-    Ball sum, difference, product;
+    Ball sum, difference, product, less;
     if (!A::run([&] {
-          sum = difference = product = A::make(x);
+          sum = difference = product = less = A::make(x);
           sum += A::make(y);
           difference -= A::make(y);
           product.add_product(A::make(y), A::make(z));
+          less.subtract_product(A::make(y), A::make(z));
         })) {
       continue;
     }
@@ -165,7 +167,102 @@ TYPED_TEST(BallLaws, SumsInPlaceHoldWhatTheSumHolds) {
     EXPECT_TRUE(holds(sum, a + b)) << hex(x) << hex(y);
     EXPECT_TRUE(holds(difference, a - b)) << hex(x) << hex(y);
     EXPECT_TRUE(holds(product, a + b * c)) << hex(x) << hex(y) << hex(z);
+    EXPECT_TRUE(holds(less, a - b * c)) << hex(x) << hex(y) << hex(z);
   }
+}
+
+TYPED_TEST(BallLaws, SumsOfProductsHoldWhatTheSumHolds) {
+  using A = TypeParam;
+  using Vector = checker::Vector3<Ball>;
+  Operands operands(10);
+  for (int n = 0; n < 2000; ++n) {
+    std::array<Operand, 6> x;
+    std::array<std::array<Operand, 3>, 6> y;
+    for (Operand& entry : x) entry = operands.interval();
+    for (auto& row : y) {
+      for (Operand& entry : row) entry = operands.interval();
+    }
+    if (n % 2 == 0) {  // products that nearly cancel
+      for (std::size_t i = 0; i < 3; ++i) {
+        x[i + 3] = {-x[i].upper, -x[i].lower};
+        y[i + 3] = y[i];
+      }
+    }
+    checker::Vector6<Ball> a;
+    std::array<Vector, 6> b;
+    Vector sums, turned;
+    Ball of_three, of_six;
+    if (!A::run([&] {
+          for (std::size_t i = 0; i < 6; ++i) {
+            a[i] = A::make(x[i]);
+            for (std::size_t c = 0; c < 3; ++c) b[i][c] = A::make(y[i][c]);
+          }
+          sums = checker::combination(a, b);
+          turned = checker::cross(b[0], b[1]);
+          of_three = checker::dot(b[0], b[1]);
+          of_six = checker::dot(a, {b[0][0], b[1][0], b[2][0], b[3][0], b[4][0], b[5][0]});
+        })) {
+      continue;
+    }
+    const PrecisionScope precision(kOracleBits);
+    const BigFloat zero(0.0);
+    std::array<BigFloat, 3> of_column{zero, zero, zero};
+    std::array<std::array<BigFloat, 3>, 6> v;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const BigFloat c(operands.inside(x[i]));
+      for (std::size_t k = 0; k < 3; ++k) {
+        v[i][k] = BigFloat(operands.inside(y[i][k]));
+        of_column[k] = of_column[k] + c * v[i][k];
+      }
+    }
+    EXPECT_TRUE(holds(of_six, of_column[0])) << n;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t p = (k + 1) % 3, q = (k + 2) % 3;
+      EXPECT_TRUE(holds(sums[k], of_column[k])) << n;
+      EXPECT_TRUE(holds(turned[k], v[0][p] * v[1][q] - v[0][q] * v[1][p])) << n;
+    }
+    EXPECT_TRUE(holds(of_three, v[0][0] * v[1][0] + v[0][1] * v[1][1] + v[0][2] * v[1][2])) << n;
+  }
+}
+
+TYPED_TEST(BallLaws, BoundsAreNotBelowAndNotFarAbove) {
+  using A = TypeParam;
+  using checker::Bound;
+  Operands operands(11);
+  EXPECT_TRUE(A::run([&] {
+    for (int n = 0; n < 3000; ++n) {
+      const Ball x = A::make(n % 8 == 0 ? Operand{0, 0} : operands.interval()), y = A::make(operands.interval()),
+                 z = A::make(operands.interval());
+      const Bound a(x), b(y), c(z);
+      Bound more = a, added = a;
+      more.add_product(b, c);
+      added += b;
+      const Bound sum = a + b, product = a * b, length = hypot(a, b, c);
+      const Ball widened = checker::plus_minus(x, b);
+      const PrecisionScope precision(kOracleBits);
+      const auto value = [](const Bound& of) { return upper_end(of.ball()); };
+      const auto size = [](const Ball& of) {
+        const BigFloat low = abs(lower_end(of)), high = abs(upper_end(of));
+        return low > high ? low : high;
+      };
+      const BigFloat p = size(x), q = size(y), r = size(z);
+      const BigFloat slack(1 + 0x1p-24);
+      const auto is_close = [&](const BigFloat& bound, const BigFloat& exact) {
+        return bound >= exact && bound <= slack * exact;
+      };
+      EXPECT_TRUE(is_close(value(a), p)) << n;
+      EXPECT_TRUE(is_close(value(sum), p + q)) << n;
+      EXPECT_TRUE(is_close(value(added), p + q)) << n;
+      EXPECT_TRUE(is_close(value(product), p * q)) << n;
+      EXPECT_TRUE(is_close(value(more), p + q * r)) << n;
+      EXPECT_TRUE(is_close(value(length) * value(length), p * p + q * q + r * r)) << n;
+      EXPECT_TRUE(lower_end(widened) <= lower_end(x) - q && upper_end(widened) >= upper_end(x) + q) << n;
+      EXPECT_EQ(a <= b, value(a) <= value(b)) << n;
+      EXPECT_TRUE(value(smaller(a, b)) <= value(a) && value(smaller(a, b)) <= value(b)) << n;
+      EXPECT_TRUE(value(larger(a, b)) >= value(a) && value(larger(a, b)) >= value(b)) << n;
+      EXPECT_TRUE(value(Bound()) == BigFloat(0.0) && value(Bound::power_of_two(-256)) == BigFloat(0x1p-256));
+    }
+  }));
 }
 
 TYPED_TEST(BallLaws, DecimalsEncloseTheTypedNumber) {
