@@ -7,6 +7,8 @@
 #include <array>
 #include <atomic>
 #include <limits>
+#include <map>
+#include <tuple>
 
 #include "certificate/implied_motion.h"
 #include "certificate/kernel_problem.h"
@@ -254,8 +256,8 @@ class Elaborator::Search {
     });
   }
 
-  /// What the kernel proves of one box at one go; nothing where it does not prove that all margins are positive.
-  std::optional<KernelBox> attempt(checker::Box box) {
+  /// What the kernel shows of one box at one go: bounds of margins, which may be negative; nothing where it shows none.
+  std::optional<KernelBox> bounds(checker::Box box) {
     ++attempts_;
     if (!place_motion(box)) return std::nullopt;
     for (const int guesses : {1, 2, 4, 12}) {
@@ -271,14 +273,21 @@ class Elaborator::Search {
           result.clearance_m = lower_bound(*bounds.clearance);
           result.directions = directions_;
         }
-        const bool is_clear = !result.clearance_m || *result.clearance_m > 0;
-        if (result.tension_N > 0 && result.length_m > 0 && result.wrench_scale >= 1 && is_clear) return result;
-        return std::nullopt;
+        return result;
       } catch (const checker::Undefined&) {
         if (!elaborator_.has_tolerances()) return std::nullopt;
       }
     }
     return std::nullopt;
+  }
+
+  /// The same of a box that it proves: all margins are positive.
+  std::optional<KernelBox> attempt(const checker::Box& box) {
+    std::optional<KernelBox> result = bounds(box);
+    if (!result) return std::nullopt;
+    const bool is_clear = !result->clearance_m || *result->clearance_m > 0;
+    if (!(result->tension_N > 0 && result->length_m > 0 && result->wrench_scale >= 1 && is_clear)) result.reset();
+    return result;
   }
 
   std::optional<Witness> singular(const PathWitness& found) {
@@ -522,12 +531,13 @@ class Elaborator::Tightener {
   /// @param enough  the share of what is shown of single poses
   void raise(Bound bound, double enough) {
     constexpr int kMostSteps = 96;
-    double found = std::numeric_limits<double>::infinity();  // the least at midpoints
+    double found = std::numeric_limits<double>::infinity();  // the least of single poses
     for (int step = 0; step < kMostSteps && improve_worst(bound, enough, found);) ++step;
   }
 
  private:
   using Boxes = std::vector<KernelBox>;
+  using Key = std::tuple<std::size_t, mpq_class, int>;  ///< segment, place, parts
 
   [[nodiscard]] static Boxes::iterator worst_of(Boxes& boxes, Bound bound) {
     return std::ranges::min_element(boxes, {}, bound);
@@ -548,35 +558,63 @@ class Elaborator::Tightener {
     Boxes* const boxes = worst_segment(bound);
     if (boxes == nullptr) return false;
     const auto worst = worst_of(*boxes, bound);
-    Search search(elaborator_, segment_(static_cast<std::size_t>(boxes - boxes_.data())));
+    const auto k = static_cast<std::size_t>(boxes - boxes_.data());
+    Search search(elaborator_, segment_(k));
     search.use(worst->directions);
-    checker::Box point = worst->box;
-    point.begin = point.end = (worst->box.begin + worst->box.end) / 2;
-    const std::optional<KernelBox> there = search.attempt(point);
+    const checker::Box point = worst_place(search, k, worst->box, bound);
+    const std::optional<KernelBox> there = at(search, k, point);
     if (!there) return false;
-    const std::optional<KernelBox> finer = with_more_parts(search, point);
+    const std::optional<KernelBox> finer = may_have_more_parts(point) ? at(search, k, with_more_parts(point)) : there;
     const double most = finer ? std::max(bound(*finer), bound(*there)) : bound(*there);
     found = std::min(found, most);
     if (!(bound(*worst) < enough * found)) return false;
     const double loss_to_width = bound(*there) - bound(*worst);
     const double loss_to_parts = most - bound(*there);
     if (loss_to_parts > loss_to_width) {
-      const std::optional<KernelBox> replaced = with_more_parts(search, worst->box);
+      const std::optional<KernelBox> replaced = search.attempt(with_more_parts(worst->box));
       if (replaced && bound(*replaced) > bound(*worst)) {
         *worst = *replaced;
         return true;
       }
     }
-    return halve(search, *boxes, worst);
+    return halve(search, *boxes, worst, [&](const KernelBox& half) { return bound(half) >= enough * found; });
   }
 
-  [[nodiscard]] std::optional<KernelBox> with_more_parts(Search& search, checker::Box box) const {
-    if (!elaborator_.has_tolerances() || box.parts >= Search::kMostWayParts) return std::nullopt;
+  /// Where a box states least, of its middle and its ends.
+  [[nodiscard]] checker::Box worst_place(Search& search, std::size_t k, const checker::Box& box, Bound bound) {
+    checker::Box result = box;
+    result.begin = result.end = (box.begin + box.end) / 2;
+    double least = std::numeric_limits<double>::infinity();
+    for (const mpq_class& s : {mpq_class(result.begin), box.begin, box.end}) {
+      checker::Box point = box;
+      point.begin = point.end = s;
+      point.parts = 1;  // quick, and much the same for all three
+      const std::optional<KernelBox> there = at(search, k, point);
+      if (!there || !(bound(*there) < least)) continue;
+      least = bound(*there);
+      result.begin = result.end = s;
+    }
+    return result;
+  }
+
+  /// bounds() at a pose, asked for once.
+  const std::optional<KernelBox>& at(Search& search, std::size_t k, const checker::Box& point) {
+    const auto [known, is_new] = at_.try_emplace(Key{k, point.begin, point.parts});
+    if (is_new) known->second = search.bounds(point);
+    return known->second;
+  }
+
+  [[nodiscard]] bool may_have_more_parts(const checker::Box& box) const {
+    return elaborator_.has_tolerances() && box.parts < Search::kMostWayParts;
+  }
+  [[nodiscard]] static checker::Box with_more_parts(checker::Box box) {
     box.parts *= 4;
-    return search.attempt(box);
+    return box;
   }
 
-  static bool halve(Search& search, Boxes& boxes, Boxes::iterator worst) {
+  /// @param is_enough  what a half may state that is asked for with fewer parts
+  template <class IsEnough>
+  static bool halve(Search& search, Boxes& boxes, Boxes::iterator worst, const IsEnough& is_enough) {
     const checker::Box& box = worst->box;
     const mpq_class middle = (box.begin + box.end) / 2;
     Boxes halves;
@@ -584,7 +622,14 @@ class Elaborator::Tightener {
       checker::Box half = box;
       half.begin = begin;
       half.end = end;
-      const std::optional<KernelBox> proved = search.attempt(half);
+      std::optional<KernelBox> proved;
+      if (half.parts > 1) {
+        checker::Box coarse = half;
+        coarse.parts /= 4;
+        proved = search.attempt(coarse);
+        if (proved && !is_enough(*proved)) proved.reset();
+      }
+      if (!proved) proved = search.attempt(half);
       if (proved) {
         halves.push_back(*proved);
       } else if (!search.prove(begin, end, halves)) {
@@ -599,6 +644,7 @@ class Elaborator::Tightener {
   const Elaborator& elaborator_;
   const std::function<Segment(std::size_t k)>& segment_;
   std::vector<Boxes>& boxes_;
+  std::map<Key, std::optional<KernelBox>> at_;
 };
 
 // ---- Elaborator -----------------------------------------------------------------------------------------------------
