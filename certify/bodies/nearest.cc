@@ -868,11 +868,13 @@ double BodySampler::room(const Model<double>& model, const RigidPose& pose, std:
   return found.nearest.distance - found.needed - lost(model, pose, pair, found);
 }
 
-/// A gap that is not larger than that of a pair with a mesh.
-double BodySampler::rough_gap_of_mesh(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
+/// A gap that is not larger than that of a pair with a mesh, unless it is `enough`.
+double BodySampler::rough_gap_of_mesh(const Model<double>& model, const RigidPose& pose, std::size_t n,
+                                      double enough) const {
   const CheckedPair<double>& pair = bodies_.pairs[n];
   const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
-  const double gap = half_of_distance(bodies[0], bodies[1]) - radii(bodies_, pair) - pair.clearance;
+  const double needed = radii(bodies_, pair) + pair.clearance;
+  const double gap = distance_bound(bodies[0], bodies[1], needed + enough) - needed;
   return gap > 0 && point_inside(bodies[0], bodies[1]) ? -gap : gap;
 }
 
@@ -890,25 +892,24 @@ bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Ca
   const Sketch at = sketch(model, pose);
   const double most = most_lost(model, pose);
   for (std::size_t n = 0; n < bodies_.pairs.size(); ++n) {
-    std::optional<Carried::Gap>& last = carried.pairs[n];
     const bool is_carried = bodies_.pairs[n].zones.empty() && bodies_.pairs[n].kind != PairClass::kExitCones;
-    if (last && is_carried) {
-      const double bodies_moving = bodies_.pairs[n].kind == PairClass::kCablesCables ? 2 : 1;
-      const double moved =
-          bodies_moving * ((pose.p - last->pose.p).norm() + pose.q.angularDistance(last->pose.q) * reach_);
-      if (moved < last->gap) continue;
-    }
-    // Boxes around meshes, and balls around other bodies, may tell at once; else a part of a mesh's distance.
+    const double bodies_moving = bodies_.pairs[n].kind == PairClass::kCablesCables ? 2 : 1;
+    const auto is_near = [&](const Carried::Gap& known) {
+      const double shifted = bodies_moving * (pose.p - known.pose.p).norm();
+      return shifted < known.gap && shifted + bodies_moving * pose.q.angularDistance(known.pose.q) * reach_ < known.gap;
+    };
+    if (is_carried && std::ranges::any_of(carried.pairs[n], is_near)) continue;
+    // Boxes around meshes, and balls around other bodies, may tell at once; else that a mesh is far enough.
     double left = 0;
     if (needs_list(n)) {
       left = gap_of_boxes(bodies_, model, pose, n) - most;
-      if (!(left > 0)) left = rough_gap_of_mesh(model, pose, n) - most;
+      if (!(left > 0)) left = rough_gap_of_mesh(model, pose, n, most) - most;
     } else if (!has_own_direction(n)) {
       left = rough_gap(at, n).gap - most;
     }
     if (!(left > 0)) left = room(model, pose, n);
-    last = {left, pose};
-    if (!(last->gap > 0)) return false;
+    if (!(left > 0)) return false;
+    if (is_carried) carried.pairs[n].push_back({left, pose});
   }
   return true;
 }

@@ -88,13 +88,14 @@ class BodySampler {
   [[nodiscard]] std::vector<PairContact> contacts(const Model<double>& model, const RigidPose& pose,
                                                   std::size_t pair) const;
 
-  /// How far pairs were apart when last measured: a pair stays apart while no point of it has moved as far.
+  /// How far pairs were apart where they were measured: a pair is apart where no point of it has moved as far from one
+  /// of these places.
   struct Carried {
     struct Gap {
       double gap = 0;
       RigidPose pose;
     };
-    std::vector<std::optional<Gap>> pairs;
+    std::vector<std::vector<Gap>> pairs;
   };
   /// Whether all pairs have room(). @param carried  from earlier poses; at first empty
   [[nodiscard]] bool is_clear(const Model<double>& model, const RigidPose& pose, Carried& carried) const;
@@ -125,7 +126,8 @@ class BodySampler {
   [[nodiscard]] double clear_along(const Sketch& at, std::size_t pair, const Direction& direction) const;
   struct Found;
   [[nodiscard]] Found find(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
-  [[nodiscard]] double rough_gap_of_mesh(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
+  [[nodiscard]] double rough_gap_of_mesh(const Model<double>& model, const RigidPose& pose, std::size_t pair,
+                                         double enough) const;
   [[nodiscard]] double lost(const Model<double>& model, const RigidPose& pose, std::size_t pair,
                             const Found& found) const;
   [[nodiscard]] double most_lost(const Model<double>& model, const RigidPose& pose) const;

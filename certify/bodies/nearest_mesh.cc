@@ -72,6 +72,43 @@ class Side {
   Bound all_;
 };
 
+/// Of a part of a mesh, in the axes of its file.
+MeshBox box_around(const MeshPart& part) {
+  const PartBoxes boxes(part);
+  MeshBox result = boxes.all().front();
+  for (const MeshBox& box : boxes.all()) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      result.lower[k] = std::min(result.lower[k], box.lower[k]);
+      result.upper[k] = std::max(result.upper[k], box.upper[k]);
+    }
+  }
+  return result;
+}
+
+double distance(const MeshBox& a, const MeshBox& b) {
+  double squared = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double apart = std::max({a.lower[k] - b.upper[k], b.lower[k] - a.upper[k], 0.0});
+    squared += apart * apart;
+  }
+  return std::sqrt(squared);
+}
+
+/// The points of a convex body, in the axes of a mesh's file.
+MeshBox box_around(const BodyInFrame& convex, const BodyInFrame& mesh) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  MeshBox result{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  const double squared_scale = mesh.axes.col(0).squaredNorm();
+  for (const Point& x : convex.points) {
+    const Point f = mesh.axes.transpose() * (x - mesh.origin) / squared_scale;
+    for (std::size_t k = 0; k < 3; ++k) {
+      result.lower[k] = std::min(result.lower[k], f(static_cast<int>(k)));
+      result.upper[k] = std::max(result.upper[k], f(static_cast<int>(k)));
+    }
+  }
+  return result;
+}
+
 double distance_to_segment(const Point& x, const Point& a, const Point& b) {
   const Point along = b - a;
   const double squared = along.squaredNorm();
@@ -99,16 +136,16 @@ class ElementSearch {
   ElementSearch(const BodyInFrame& first, const BodyInFrame& second)
       : first_(first), a_(first), b_(second), scale_(b_.scale() / a_.scale()) {
     best_.nearest.distance = std::numeric_limits<double>::infinity();
+    if (first.mesh == nullptr) of_convex_ = box_around(first, second);
+    if (second.mesh == nullptr) of_convex_ = box_around(second, first);
     consider(a_.root(), b_.root());
   }
 
   /// Until the nearest elements are known.
-  void run() {
-    while (!open_.empty() && open_.top().bound < best_.nearest.distance) open_nearest();
-  }
-  /// Until nothing can be nearer than half of the distance.
-  void run_half_way() {
-    while (!open_.empty() && open_.top().bound < 0.5 * std::min(best_.nearest.distance, no_farther_)) open_nearest();
+  void run() { run(std::numeric_limits<double>::infinity()); }
+  /// Until they are known to be farther apart than that, or how far.
+  void run(double enough) {
+    while (!open_.empty() && open_.top().bound < std::min(enough, best_.nearest.distance)) look_at_nearest();
   }
 
   [[nodiscard]] const NearestElements& best() const { return best_; }
@@ -120,12 +157,27 @@ class ElementSearch {
   struct Task {
     MeshPart first, second;
     double bound;
+    bool is_of_hulls = false;                                                ///< the bound is the distance of the hulls
     bool operator<(const Task& other) const { return bound > other.bound; }  // the least comes first
   };
 
-  void open_nearest() {
-    const Task task = open_.top();
+  /// Bounds from balls and boxes are quick, hulls are asked for only where these are the least.
+  void look_at_nearest() {
+    Task task = open_.top();
     open_.pop();
+    if (!task.is_of_hulls) {
+      NearestPoints nearest = nearest_points(a_.points(task.first), b_.points(task.second));
+      if (!task.first.may_open() && !task.second.may_open()) {
+        if (nearest.distance < best_.nearest.distance) keep(task, std::move(nearest));
+        return;
+      }
+      task.bound = std::max(task.bound, nearest.distance);
+      task.is_of_hulls = true;
+      if (!open_.empty() && open_.top().bound < task.bound) {
+        open_.push(task);
+        return;
+      }
+    }
     if (opens_first(task.first, task.second, scale_)) {
       for (const MeshPart& part : parts_of(task.first)) consider(part, task.second);
     } else {
@@ -136,28 +188,28 @@ class ElementSearch {
   void consider(const MeshPart& x, const MeshPart& y) {
     const Bound p = a_.ball(x), q = b_.ball(y);
     const double middles = (p.centre - q.centre).norm();
-    no_farther_ = std::min(no_farther_, middles + p.radius + q.radius);
     const bool is_of_cable = x.mesh == nullptr && first_.points.size() == 2;
     double bound = is_of_cable ? distance_to_segment(q.centre, first_.points[0], first_.points[1]) - q.radius
                                : middles - p.radius - q.radius;
-    if (bound >= best_.nearest.distance) return;
-    const bool are_last = !x.may_open() && !y.may_open();
-    NearestPoints nearest = nearest_points(a_.points(x), b_.points(y));
-    if (!are_last) {
-      bound = std::max(bound, nearest.distance);
-      if (bound < best_.nearest.distance) open_.push({x, y, bound});
-      return;
+    if (of_convex_) {
+      const bool is_first = x.mesh == nullptr;
+      bound = std::max(bound, (is_first ? b_ : a_).scale() * distance(box_around(is_first ? y : x), *of_convex_));
     }
-    if (!(nearest.distance < best_.nearest.distance)) return;
+    if (bound < best_.nearest.distance) open_.push({x, y, bound});
+  }
+
+  void keep(const Task& task, NearestPoints nearest) {
+    const auto element = [](const MeshPart& part) {
+      return part.is_element ? std::optional(part.index) : std::nullopt;
+    };
     best_.nearest = std::move(nearest);
-    best_.elements = {x.is_element ? std::optional(x.index) : std::nullopt,
-                      y.is_element ? std::optional(y.index) : std::nullopt};
+    best_.elements = {element(task.first), element(task.second)};
   }
 
   const BodyInFrame& first_;
   Side a_, b_;
   double scale_;
-  double no_farther_ = std::numeric_limits<double>::infinity();  ///< than this
+  std::optional<MeshBox> of_convex_;  ///< around the body that is no mesh, in the axes of the other's file
   NearestElements best_;
   std::priority_queue<Task> open_;
 };
@@ -170,9 +222,9 @@ NearestElements nearest_elements(const BodyInFrame& first, const BodyInFrame& se
   return search.best();
 }
 
-double half_of_distance(const BodyInFrame& first, const BodyInFrame& second) {
+double distance_bound(const BodyInFrame& first, const BodyInFrame& second, double enough) {
   ElementSearch search(first, second);
-  search.run_half_way();
+  search.run(enough);
   return search.lower_bound();
 }
 

@@ -32,9 +32,9 @@ struct NearestElements {
 /// @pre one of them is a mesh
 [[nodiscard]] NearestElements nearest_elements(const BodyInFrame& first, const BodyInFrame& second);
 
-/// A lower bound of the distance of their surfaces, no less than half of it: much cheaper where they are far apart.
+/// A lower bound of the distance of their surfaces: that distance, or at least `enough`, which is much cheaper.
 /// @pre one of them is a mesh
-[[nodiscard]] double half_of_distance(const BodyInFrame& first, const BodyInFrame& second);
+[[nodiscard]] double distance_bound(const BodyInFrame& first, const BodyInFrame& second, double enough);
 
 /// A point of one body that is inside of the other, a watertight mesh.
 struct PointInside {
