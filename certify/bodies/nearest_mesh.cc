@@ -72,39 +72,22 @@ class Side {
   Bound all_;
 };
 
-/// Of a part of a mesh, in the axes of its file.
-MeshBox box_around(const MeshPart& part) {
+using AxisBox = Eigen::AlignedBox<double, 3>;
+
+/// Around a part of a mesh, in the axes of its file.
+AxisBox box_around(const MeshPart& part) {
+  AxisBox result;
   const PartBoxes boxes(part);
-  MeshBox result = boxes.all().front();
-  for (const MeshBox& box : boxes.all()) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      result.lower[k] = std::min(result.lower[k], box.lower[k]);
-      result.upper[k] = std::max(result.upper[k], box.upper[k]);
-    }
-  }
+  for (const MeshBox& box : boxes.all()) result.extend(AxisBox(vector(box.lower), vector(box.upper)));
   return result;
 }
 
-double distance(const MeshBox& a, const MeshBox& b) {
-  double squared = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double apart = std::max({a.lower[k] - b.upper[k], b.lower[k] - a.upper[k], 0.0});
-    squared += apart * apart;
-  }
-  return std::sqrt(squared);
-}
-
-/// The points of a convex body, in the axes of a mesh's file.
-MeshBox box_around(const BodyInFrame& convex, const BodyInFrame& mesh) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  MeshBox result{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+/// Around the points of a convex body, in the axes of a mesh's file.
+AxisBox box_around(const BodyInFrame& convex, const BodyInFrame& mesh) {
+  AxisBox result;
   const double squared_scale = mesh.axes.col(0).squaredNorm();
   for (const Point& x : convex.points) {
-    const Point f = mesh.axes.transpose() * (x - mesh.origin) / squared_scale;
-    for (std::size_t k = 0; k < 3; ++k) {
-      result.lower[k] = std::min(result.lower[k], f(static_cast<int>(k)));
-      result.upper[k] = std::max(result.upper[k], f(static_cast<int>(k)));
-    }
+    result.extend(Point(mesh.axes.transpose() * (x - mesh.origin) / squared_scale));
   }
   return result;
 }
@@ -193,12 +176,13 @@ class ElementSearch {
                                : middles - p.radius - q.radius;
     if (of_convex_) {
       const bool is_first = x.mesh == nullptr;
-      bound = std::max(bound, (is_first ? b_ : a_).scale() * distance(box_around(is_first ? y : x), *of_convex_));
+      const double apart = of_convex_->exteriorDistance(box_around(is_first ? y : x));
+      bound = std::max(bound, (is_first ? b_ : a_).scale() * apart);
     }
     if (bound < best_.nearest.distance) open_.push({x, y, bound});
   }
 
-  void keep(const Task& task, NearestPoints nearest) {
+  void keep(const Task& task, NearestPoints&& nearest) {
     const auto element = [](const MeshPart& part) {
       return part.is_element ? std::optional(part.index) : std::nullopt;
     };
@@ -209,7 +193,7 @@ class ElementSearch {
   const BodyInFrame& first_;
   Side a_, b_;
   double scale_;
-  std::optional<MeshBox> of_convex_;  ///< around the body that is no mesh, in the axes of the other's file
+  std::optional<AxisBox> of_convex_;  ///< around the body that is no mesh, in the axes of the other's file
   NearestElements best_;
   std::priority_queue<Task> open_;
 };
