@@ -537,7 +537,9 @@ class Elaborator::Tightener {
 
  private:
   using Boxes = std::vector<KernelBox>;
-  using Key = std::tuple<std::size_t, mpq_class, int>;  ///< segment, place, parts
+  /// Segment and place, bits, parts and directions.
+  using Key = std::tuple<std::size_t, mpq_class, int, int, std::vector<Direction>,
+                         std::map<std::size_t, std::vector<Direction>>>;
 
   [[nodiscard]] static Boxes::iterator worst_of(Boxes& boxes, Bound bound) {
     return std::ranges::min_element(boxes, {}, bound);
@@ -561,10 +563,11 @@ class Elaborator::Tightener {
     const auto k = static_cast<std::size_t>(boxes - boxes_.data());
     Search search(elaborator_, segment_(k));
     search.use(worst->directions);
-    const checker::Box point = worst_place(search, k, worst->box, bound);
-    const std::optional<KernelBox> there = at(search, k, point);
+    const checker::Box point = worst_place(search, k, *worst, bound);
+    const std::optional<KernelBox> there = at(search, k, point, worst->directions);
     if (!there) return false;
-    const std::optional<KernelBox> finer = may_have_more_parts(point) ? at(search, k, with_more_parts(point)) : there;
+    const std::optional<KernelBox> finer =
+        may_have_more_parts(point) ? at(search, k, with_more_parts(point), worst->directions) : there;
     const double most = finer ? std::max(bound(*finer), bound(*there)) : bound(*there);
     found = std::min(found, most);
     if (!(bound(*worst) < enough * found)) return false;
@@ -581,7 +584,8 @@ class Elaborator::Tightener {
   }
 
   /// Where a box states least, of its middle and its ends.
-  [[nodiscard]] checker::Box worst_place(Search& search, std::size_t k, const checker::Box& box, Bound bound) {
+  [[nodiscard]] checker::Box worst_place(Search& search, std::size_t k, const KernelBox& of, Bound bound) {
+    const checker::Box& box = of.box;
     checker::Box result = box;
     result.begin = result.end = (box.begin + box.end) / 2;
     double least = std::numeric_limits<double>::infinity();
@@ -589,7 +593,7 @@ class Elaborator::Tightener {
       checker::Box point = box;
       point.begin = point.end = s;
       point.parts = 1;  // quick, and much the same for all three
-      const std::optional<KernelBox> there = at(search, k, point);
+      const std::optional<KernelBox> there = at(search, k, point, of.directions);
       if (!there || !(bound(*there) < least)) continue;
       least = bound(*there);
       result.begin = result.end = s;
@@ -598,8 +602,10 @@ class Elaborator::Tightener {
   }
 
   /// bounds() at a pose, asked for once.
-  const std::optional<KernelBox>& at(Search& search, std::size_t k, const checker::Box& point) {
-    const auto [known, is_new] = at_.try_emplace(Key{k, point.begin, point.parts});
+  const std::optional<KernelBox>& at(Search& search, std::size_t k, const checker::Box& point,
+                                     const PairDirections& along) {
+    const auto [known, is_new] =
+        at_.try_emplace(Key{k, point.begin, point.bits, point.parts, along.single, along.lists});
     if (is_new) known->second = search.bounds(point);
     return known->second;
   }
