@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The equations of a box for all six cables at once: lengths, the inverse of D, densities, tensions.
+// The equations of a box for all six cables at once: lengths and their derivatives, the inverse of D, densities,
+// tensions.
 //
 // Claim.  Under run_upward(), on forms of a pose over a box of N variables (slope_form.h), each result encloses what
-// box_proof.h says of a box. It is what the templates there compute for Interval, operation by operation: of N = 1 all
-// numbers are equal to theirs (tests/certify/lanes_test.cc).
+// box_proof.h says of a box, or kinematics/moving_load.h of lengths. It is what the templates there compute for
+// Interval, operation by operation: of N = 1 all numbers are equal to theirs (tests/certify/lanes_test.cc).
 //
 // The same source is compiled for SSE2, AVX2 and AVX-512F (level_*.cc), and the processor decides at start which is
 // used; results are the same, bit for bit (lanes.h). The environment variable TAUT_SIMD = sse2, avx2 or avx512 asks for
@@ -71,6 +72,17 @@ struct LengthControl {
   double radius;
 };
 
+/// How the platform moves by s, at a place or over a part (kinematics/moving_load.h).
+struct PlatformRates {
+  Ends p[3], p1[3], p2[3], p3[3];  ///< p and its derivatives
+  Ends r[3][3];
+  Ends w[3], w1[3], w2[3];
+};
+/// The derivatives of lengths by s.
+struct LengthRates {
+  IntervalRow first, second, third;
+};
+
 /// All that is known of a box. Matrices have one row of lanes for each column: entry (i, j) is row j, lane i.
 template <int N>
 struct Box {
@@ -116,6 +128,11 @@ struct BoxKernel {
 /// the six unknowns. kNo: not proved to be the only one, or to be there.
 using FindPose = Outcome (*)(const Machine&, const LengthControl&, FormRow<1>& z);
 
+/// Sets as many derivatives as are asked for; of `by_s`, third ones are read only for the third. kFault where a length
+/// may be 0.
+enum class Order { kSecond, kThird };
+using DifferentiateLengths = Outcome (*)(const Machine&, const PlatformRates& by_s, Order, LengthRates&);
+
 enum class Level { kSse2, kAvx2, kAvx512 };
 [[nodiscard]] const char* name(Level level);
 
@@ -125,6 +142,7 @@ struct Kernels {
   BoxKernel<2> cell_of_two;    ///< of maps of two coordinates
   BoxKernel<3> cell_of_three;  ///< of three
   FindPose find_pose;
+  DifferentiateLengths differentiate_lengths;
   /// Whether this level's sums, products, quotients and roots round upward in every lane. Under run_upward().
   /// @returns what does not, or null
   const char* (*failed_rounding)();

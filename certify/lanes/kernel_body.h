@@ -142,11 +142,11 @@ Outcome enclose_geometry(const Machine& machine, const PoseForms<N>& pose, Box<N
 constexpr Row kUnit[6] = {{{1, 0, 0, 0, 0, 0, 1, 1}}, {{0, 1, 0, 0, 0, 0, 0, 0}}, {{0, 0, 1, 0, 0, 0, 0, 0}},
                           {{0, 0, 0, 1, 0, 0, 0, 0}}, {{0, 0, 0, 0, 1, 0, 0, 0}}, {{0, 0, 0, 0, 0, 1, 0, 0}}};
 
-enum class Order { kByRows, kByColumns };
+enum class Entries { kByRows, kByColumns };
 
 /// Gauss-Jordan elimination in place, with partial pivoting, of a matrix by rows, which is lost. @returns whether every
 /// pivot is positive in size
-template <Order kOrder>
+template <Entries kEntries>
 TAUT_LANES_INLINE bool invert(Row (&a)[6], Row (&inverse)[6]) {
   int order[6] = {0, 1, 2, 3, 4, 5};
   const Lanes zero = broadcast(0.0), one = broadcast(1.0);
@@ -175,7 +175,7 @@ TAUT_LANES_INLINE bool invert(Row (&a)[6], Row (&inverse)[6]) {
   for (int j = 0; j < 6; ++j) {
     const int to = order[j];
     for (int i = 0; i < 6; ++i) {
-      (kOrder == Order::kByRows ? inverse[i].x[to] : inverse[to].x[i]) = a[order[i]].x[j];
+      (kEntries == Entries::kByRows ? inverse[i].x[to] : inverse[to].x[i]) = a[order[i]].x[j];
     }
   }
   for (int i = 0; i < 6; ++i) {
@@ -195,7 +195,7 @@ template <int N>
 Outcome precondition(Box<N>& box) {
   Row mid[6];
   for (int i = 0; i < 6; ++i) store(mid[i], midpoint_approx(load(box.d_mid[i])));
-  if (!invert<Order::kByColumns>(mid, box.c)) return Outcome::kNo;
+  if (!invert<Entries::kByColumns>(mid, box.c)) return Outcome::kNo;
   Factors c[6];
   for (int k = 0; k < 6; ++k) c[k] = factors(load(box.c[k]));
 #pragma GCC unroll 1

@@ -203,7 +203,7 @@ TAUT_LANES_INLINE Vectors from_base(const Ends (&p)[3], const Machine& machine) 
     store(g_y[3 + i], broadcast(2.0 * at.turn) * (reach[j] * base[k] - reach[k] * base[j]));
   }
   // Row k of g_y is its column k, so what are rows of the inverse here are the columns of A.
-  if (!invert<Order::kByRows>(g_y, search.a)) return false;
+  if (!invert<Entries::kByRows>(g_y, search.a)) return false;
   const Lanes length = midpoint_approx(load(at.length_mid));
   const Lanes squared_length = length * length;
   store(search.centre, broadcast(0.0));

@@ -52,4 +52,32 @@ std::shared_ptr<const lanes::Machine> make_lanes_machine(const Model<Interval>& 
   return std::make_shared<lanes::Machine>(machine);
 }
 
+namespace {
+
+void set(lanes::Ends (&to)[3], const Vector3<Interval>& from) {
+  for (int k = 0; k < 3; ++k) to[k] = ends(from(k));
+}
+
+}  // namespace
+
+lanes::PlatformRates lanes_rates(const PathRates<Interval>& x) {
+  lanes::PlatformRates result;
+  set(result.p, x.p);
+  set(result.p1, x.p1);
+  set(result.p2, x.p2);
+  set(result.w, x.w);
+  set(result.w1, x.w1);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) result.r[i][j] = ends(x.r_WP(i, j));
+  }
+  return result;
+}
+
+lanes::PlatformRates lanes_rates(const ThirdPathRates<Interval>& x) {
+  lanes::PlatformRates result = lanes_rates(static_cast<const PathRates<Interval>&>(x));
+  set(result.p3, x.p3);
+  set(result.w2, x.w2);
+  return result;
+}
+
 }  // namespace taut

@@ -9,6 +9,7 @@
 #include "certify/arithmetic/slope_form.h"
 #include "certify/lanes/kernel.h"
 #include "kinematics/model.h"
+#include "kinematics/moving_load.h"
 
 namespace taut {
 
@@ -63,5 +64,8 @@ void set_from_lanes(const lanes::FormRow<N>& row, std::size_t i, SlopeForm<Inter
   for (int k = 0; k < N; ++k) slope(result.slope, static_cast<std::size_t>(k)) = interval(row.slope[k], i);
   result.range = interval(row.range, i);
 }
+
+[[nodiscard]] lanes::PlatformRates lanes_rates(const PathRates<Interval>& x);
+[[nodiscard]] lanes::PlatformRates lanes_rates(const ThirdPathRates<Interval>& x);
 
 }  // namespace taut

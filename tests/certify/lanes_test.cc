@@ -107,6 +107,96 @@ TEST(Lanes, GiveWhatTheTemplatesGiveOnADenseEllipsoidAboutAnyPoint) {
   expect_equal_to_templates(skewed(testing::robot1_slice()));
 }
 
+TEST(Lanes, GiveWhatTheTemplatesGiveOfItems) {
+  Problem problem = testing::robot1_slice();
+  problem.load.point_m = {"0.01", "-0.02", "0.015"};
+  problem.load.ellipsoid.reset();
+  problem.load.wrench.fill("0");
+  problem.load.gravity_m_s2 = {"0", "0", "10"};
+  problem.load.items = {{"block", Weight{"0.0995", "0.1005", {"0.01", "0", "0"}, "0.0005"}},
+                        {"wind", Force{DiscOfVectors{"0.004", {"0", "0", "1"}}, Axes::kWorld, {"0", "0", "0.1"}}}};
+  expect_equal_to_templates(problem);
+}
+
+// ---- Rates ----------------------------------------------------------------------------------------------------------
+
+/// How a platform may move somewhere near a place; all is thin or wide.
+ThirdPathRates<Interval> random_rates(std::mt19937_64& random, const Vector3<double>& near) {
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+  const double radius = random() % 3 == 0 ? 0 : std::exp2(uniform(-30, -4));
+  const auto around = [&](double x) { return Interval(x - radius * uniform(0, 1), x + radius * uniform(0, 1)); };
+  ThirdPathRates<Interval> x;
+  for (int k = 0; k < 3; ++k) {
+    x.p(k) = around(near(k) + uniform(-0.05, 0.05));
+    for (Interval* rate : {&x.p1(k), &x.p2(k), &x.p3(k), &x.w(k), &x.w1(k), &x.w2(k)}) *rate = around(uniform(-2, 2));
+  }
+  const Eigen::Quaterniond turn(1, uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+  const Eigen::Matrix3d r = turn.normalized().toRotationMatrix();
+  for (int k = 0; k < 9; ++k) x.r_WP(k) = around(r(k));
+  return x;
+}
+
+TEST(Lanes, LengthsChangeAsTheTemplatesSay) {
+  const ProofModel<Interval> model = make_proof_model(skewed(testing::robot1_slice()));
+  std::mt19937_64 random(3);
+  int sound = 0;
+  constexpr int kTrials = 2000;
+  for (int n = 0; n < kTrials && !::testing::Test::HasFailure(); ++n) {
+    ThirdPathRates<Interval> x;
+    std::array<WinchRate<Interval>, kCables> by_s;
+    std::array<Interval, kCables> third;
+    const bool is_sound = run_upward([&] {
+      x = random_rates(random, {0, 0, 0.35});
+      for (std::size_t i = 0; i < kCables; ++i) {
+        by_s[i] = winch_rate(model.model, i, x.p, x.r_WP, Rates<Interval>{x.p1, x.p2, x.w, x.w1});
+        third[i] = third_derivative_of_length(model.model, i, x, by_s[i]);
+      }
+    });
+    sound += is_sound ? 1 : 0;
+    for (const Level level : kLevels) {
+      const lanes::Kernels* const kernels = lanes::kernels_of(level);
+      if (kernels == nullptr) continue;
+      lanes::LengthRates all, two;
+      lanes::Outcome outcome{};
+      const bool is_sound_in_lanes = run_upward([&] {
+        outcome = kernels->differentiate_lengths(*model.lanes, lanes_rates(x), lanes::Order::kThird, all);
+        static_cast<void>(kernels->differentiate_lengths(
+            *model.lanes, lanes_rates(static_cast<const PathRates<Interval>&>(x)), lanes::Order::kSecond, two));
+      });
+      ASSERT_EQ(is_sound_in_lanes && outcome == lanes::Outcome::kYes, is_sound) << lanes::name(level);
+      if (!is_sound) continue;
+      for (std::size_t i = 0; i < kCables; ++i) {
+        expect_equal(lanes_detail::interval(all.first, i), by_s[i].speed, "first of three");
+        expect_equal(lanes_detail::interval(all.second, i), by_s[i].acceleration, "second of three");
+        expect_equal(lanes_detail::interval(all.third, i), third[i], "third");
+        expect_equal(lanes_detail::interval(two.first, i), by_s[i].speed, "first of two");
+        expect_equal(lanes_detail::interval(two.second, i), by_s[i].acceleration, "second of two");
+      }
+    }
+  }
+  EXPECT_GT(sound, kTrials / 2);
+}
+
+TEST(Lanes, RatesOfALengthThatMayBeZeroAreAFault) {
+  const ProofModel<Interval> model = make_proof_model(testing::robot1_slice());
+  for (std::size_t cable = 0; cable < kCables; ++cable) {
+    for (const Level level : kLevels) {
+      const lanes::Kernels* const kernels = lanes::kernels_of(level);
+      if (kernels == nullptr) continue;
+      lanes::LengthRates rates;
+      lanes::Outcome outcome{};
+      static_cast<void>(run_upward([&] {
+        std::mt19937_64 random(4);
+        ThirdPathRates<Interval> x = random_rates(random, {0, 0, 0.35});
+        const Vector3<Interval> reach = turned(x.r_WP, model.model.p_PB[cable]);
+        for (int k = 0; k < 3; ++k) x.p(k) = model.model.p_WA[cable](k) - reach(k);
+        outcome = kernels->differentiate_lengths(*model.lanes, lanes_rates(x), lanes::Order::kSecond, rates);
+      }));
+      EXPECT_EQ(outcome, lanes::Outcome::kFault) << lanes::name(level) << ", cable " << cable;
+    }
+  }
+}
+
 // ---- Levels ---------------------------------------------------------------------------------------------------------
 
 /// Everything that a kernel says of a pose over a box, numbers of the six cables as bits.
