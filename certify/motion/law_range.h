@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -40,19 +41,20 @@ namespace law_range_detail {
 template <class I>
 using Quadratic = std::array<I, 3>;
 
-/// Its polar form: linear in x and in y, symmetric, and the polynomial itself where x = y. Over [a, b] the polynomial
-/// is a mean of its values at (a, a), (a, b) and (b, b), likewise.
 template <class I>
-I polar(const Quadratic<I>& q, const I& x, const I& y) {
-  const I one(1.0), x1 = one - x, y1 = one - y;
-  return q[0] * (x1 * y1) + q[1] * (x * y1 + y * x1) + q[2] * (x * y);
+I mix(const I& p, const I& q, const I& t) {
+  return p * (I(1.0) - t) + q * t;
 }
 
+/// Over [a, b] the polynomial is a mean of the values of its polar form at (a, a), (a, b) and (b, b), likewise: that is
+/// linear in both of its arguments, symmetric, and the polynomial where they are equal.
 template <class I>
 I over_interval(const Quadratic<I>& q, double from, double to) {
   if (from == 0 && to == 1) return hull(hull(q[0], q[2]), q[1]);
   const I a(from), b(to);
-  return hull(hull(polar(q, a, a), polar(q, b, b)), polar(q, a, b));
+  const I at_a0 = mix(q[0], q[1], a), at_a1 = mix(q[1], q[2], a);
+  const I at_b = mix(mix(q[0], q[1], b), mix(q[1], q[2], b), b);
+  return hull(hull(mix(at_a0, at_a1, a), at_b), mix(at_a0, at_a1, b));
 }
 
 /// σ' and σ'' on a piece, by u = t/h − k; σ'' is linear.
@@ -79,6 +81,24 @@ auto over_times(const TimeLaw& law, const TimeCover& times, F f, auto join) {
   return result;
 }
 
+/// About the u in [0, 1] at which a piece is x, or the nearer end: Newton's method, and halving where that is slow.
+inline double place_on_piece(const Polynomial<double>& piece, double x) {
+  constexpr double kFine = 0x1p-21;
+  double u = 0.5;
+  for (int k = 0; k < 6; ++k) {
+    const double slope = piece.slope(u);
+    if (!(slope > 0)) break;
+    const double from = u;
+    u = std::clamp(u - (piece.at(u) - x) / slope, 0.0, 1.0);
+    if (std::abs(u - from) < kFine) return u;
+  }
+  u = 0;
+  for (double by = 0.5; by >= kFine; by /= 2) {
+    if (piece.at(u + by) < x) u += by;
+  }
+  return u;
+}
+
 /// A k in [0, n] for which is_before(k) holds, or 0; the greatest one where none of them holds behind one that does
 /// not.
 template <class F>
@@ -97,31 +117,34 @@ std::size_t last_before(std::size_t n, F is_before) {
 /// @pre complaint(law, …) is empty
 ///
 /// The times t with a <= σ(t) <= b are one closed interval, since σ never falls. It lies between t1 and t2 where
-/// σ(t1) < a, or t1 = 0, and σ(t2) > b, or t2 = T. Such times are found by halving in plain numbers, of which nothing
-/// is claimed, and moved outward until enclosures of σ there say that they do.
+/// σ(t1) < a, or t1 = 0, and σ(t2) > b, or t2 = T. Such times are sought in plain numbers, of which nothing is claimed,
+/// and moved outward until enclosures of σ there say that they do.
 template <class I>
 [[nodiscard]] TimeCover time_cover(const TimeLaw& law, const I& s) {
   constexpr double kFinest = 0x1p-19;  // of a piece
   const double a = lower_bound(s), b = upper_bound(s);
   const std::size_t n = law.pieces();
   const std::vector<double>& c = law.controls;
-  const auto approx_knot = [&](std::size_t k) { return (c[k] + 4 * c[k + 1] + c[k + 2]) / 6; };
-  const auto knot = [&](std::size_t k) { return (I(c[k]) + I(4.0) * I(c[k + 1]) + I(c[k + 2])) / I(6.0); };
-  std::size_t first = law_range_detail::last_before(n, [&](std::size_t k) { return approx_knot(k) < a; });
-  while (first > 0 && !(upper_bound(knot(first)) < a)) --first;
-  std::size_t behind = law_range_detail::last_before(n, [&](std::size_t k) { return approx_knot(n - k) > b; });
-  while (behind > 0 && !(lower_bound(knot(n - behind)) > b)) --behind;
+  // Six times σ at knot k, and six times the ends of `s`.
+  const auto approx_knot = [&](std::size_t k) { return c[k] + 4 * c[k + 1] + c[k + 2]; };
+  const auto knot = [&](std::size_t k) { return I(c[k]) + I(4.0) * I(c[k + 1]) + I(c[k + 2]); };
+  const I begin = I(6.0) * I(a), end = I(6.0) * I(b);
+  const auto is_before = [&](std::size_t k) { return approx_knot(k) < 6 * a; };
+  const auto is_behind = [&](std::size_t k) { return approx_knot(n - k) > 6 * b; };
+  std::size_t first = law_range_detail::last_before(n, is_before);
+  while (first > 0 && !(upper_bound(knot(first)) < lower_bound(begin))) --first;
+  std::size_t behind = law_range_detail::last_before(n, is_behind);
+  while (behind > 0 && !(lower_bound(knot(n - behind)) > upper_bound(end))) --behind;
   // Knot `first` is before a, or 0; knot n − `behind` is behind b, or n.
   TimeCover cover;
   cover.first = std::min(first, n - 1);
   cover.last = std::max(cover.first, n - 1 - std::min(behind, n - 1));
   const double finest = cover.last - cover.first > 4 ? 0x1p-8 : kFinest;
-  const Polynomial<double> approx_first = law_polynomial<double>(law, cover.first),
-                           approx_last = law_polynomial<double>(law, cover.last);
-  for (double by = 0.5; by >= finest; by /= 2) {
-    if (approx_first.at(cover.u1 + by) < a) cover.u1 += by;
-    if (approx_last.at(cover.u2 - by) > b) cover.u2 -= by;
-  }
+  const auto approx_number = [&](std::size_t k, double x) {  // of `finest`
+    return law_range_detail::place_on_piece(law_polynomial<double>(law, k), x) / finest;
+  };
+  cover.u1 = std::max(0.0, finest * (std::ceil(approx_number(cover.first, a)) - 1));
+  cover.u2 = std::min(1.0, finest * (std::floor(approx_number(cover.last, b)) + 1));
   const Polynomial<I> first_piece = law_polynomial<I>(law, cover.first),
                       last_piece = law_polynomial<I>(law, cover.last);
   for (double by = kFinest; cover.u1 > 0 && !(upper_bound(first_piece.at(I(cover.u1))) < a); by *= 2) {
@@ -140,7 +163,8 @@ template <class I>
   using namespace law_range_detail;
   const auto on_piece = [&](std::size_t k, double from, double to) {
     const PieceRates<I> x(law, k);
-    return LawRange<I>{over_interval(x.first, from, to), over_interval(x.second, from, to)};
+    const auto second = [&](double u) { return x.second[0] + I(u) * (x.second[2] - x.second[0]); };
+    return LawRange<I>{over_interval(x.first, from, to), hull(second(from), second(to))};
   };
   const auto [first, last, u1, u2] = times;
   LawRange<I> by_u = on_piece(first, u1, first == last ? u2 : 1);
