@@ -285,13 +285,7 @@ Densities<I> enclose_densities(const ProofModel<I>& problem, const Matrix3<Slope
 /// Of a move in time: what inertia asks of the cables over all of a box, and at its midpoint where that is asked for.
 template <class I>
 struct Inertia {
-  /// Nothing where the motion's rates are not known.
-  [[nodiscard]] static std::optional<Inertia> of(const ProofModel<I>& problem, const Segment& segment,
-                                                 const EnclosedBox<I>& s) {
-    std::optional<Moving<I>> over = problem.moving->over(problem.model, segment, s.range);
-    if (!over) return std::nullopt;
-    return Inertia{*std::move(over)};
-  }
+  explicit Inertia(Moving<I> over_box) : over(std::move(over_box)) {}
 
   /// w0 − w_in.
   [[nodiscard]] static Vector6<I> rest(const Vector6<I>& w0, const Moving<I>& moving) {
@@ -383,8 +377,8 @@ struct Inertia {
 
 /// The margins of rates as far as is known of tensions: over the box those of every deviation, if that is known.
 template <class I>
-typename BoxEnclosure<I>::RateMargins rate_margins(const ProofModel<I>& problem, const Inertia<I>& inertia,
-                                                   const BoxEnclosure<I>& box) {
+typename BoxEnclosure<I>::Rates rate_margins(const ProofModel<I>& problem, const Inertia<I>& inertia,
+                                             const BoxEnclosure<I>& box) {
   std::array<I, kCables> at_mid, over;
   for (const auto& [id, value, disturbed] : box.margins) {
     if (id.kind != MarginKind::kTensionMax) continue;
@@ -395,7 +389,7 @@ typename BoxEnclosure<I>::RateMargins rate_margins(const ProofModel<I>& problem,
   std::array<I, kCables> undisturbed;
   for (std::size_t i = 0; i < kCables; ++i) undisturbed[i] = box.high[i].range;
   const Moving<I>& mid = inertia.at_mid ? *inertia.at_mid : inertia.over;
-  typename BoxEnclosure<I>::RateMargins result{mid.margins, inertia.over.margins, inertia.over.margins};
+  typename BoxEnclosure<I>::Rates result{mid.margins, inertia.over.margins, inertia.over.margins};
   problem.moving->add_powers(mid, at_mid, result.at_mid);
   problem.moving->add_powers(inertia.over, over, result.over);
   problem.moving->add_powers(inertia.over, undisturbed, result.undisturbed);
@@ -445,40 +439,52 @@ bool may_be_sharpened(const ProofModel<I>& problem, const BoxEnclosure<I>& box) 
   });
 }
 
-/// The rest of enclose_box, of a problem with neither items nor tolerances, for all cables at once.
-void enclose_in_lanes(const ProofModel<Interval>& problem, const MotionEnclosure<Interval>& motion, double radius,
-                      BoxEnclosure<Interval>& result) {
-  using lanes::Outcome;
-  const lanes::Machine& machine = *problem.lanes;
-  const lanes::BoxKernel<1>& kernel = lanes::kernels().box;
-  lanes::PoseForms<1> pose = lanes_pose<1>(motion.p_WP, motion.r_WP);
-  pose.radius[0] = radius;
-  lanes::Box<1> box;
-  if (kernel.enclose_geometry(machine, pose, box) != Outcome::kYes) {
-    Faults<Interval>::raise();
-    return;
+/// The equations of a box for all cables at once: the same numbers, of a problem without tolerances.
+class BoxInLanes {
+ public:
+  explicit BoxInLanes(const ProofModel<Interval>& problem) : machine_(*problem.lanes), model_(problem.model) {}
+
+  /// Sets lengths. Returns whether J is proved non-singular; what follows is void otherwise.
+  [[nodiscard]] bool invert(const MotionEnclosure<Interval>& motion, double radius, BoxEnclosure<Interval>& result) {
+    lanes::PoseForms<1> pose = lanes_pose<1>(motion.p_WP, motion.r_WP);
+    pose.radius[0] = radius;
+    if (kernel_.enclose_geometry(machine_, pose, box_) != lanes::Outcome::kYes) {
+      Faults<Interval>::raise();
+      return false;
+    }
+    for (std::size_t i = 0; i < kCables; ++i) set_from_lanes(box_.length, i, result.length[i]);
+    add_length_margins(model_, result);
+    return kernel_.precondition(box_) == lanes::Outcome::kYes && kernel_.bound_inverse(box_) == lanes::Outcome::kYes;
   }
-  for (std::size_t i = 0; i < kCables; ++i) set_from_lanes(box.length, i, result.length[i]);
-  add_length_margins(problem.model, result);
-  if (kernel.precondition(box) != Outcome::kYes || kernel.bound_inverse(box) != Outcome::kYes) return;
-  lanes::Ends wrench[6];
-  for (int j = 0; j < 6; ++j) wrench[j] = lanes_detail::ends(problem.model.wrench(j));
-  if (kernel.enclose_tensions(machine, wrench, box) != Outcome::kYes) {
-    Faults<Interval>::raise();
-    return;
+
+  [[nodiscard]] const lanes::Box<1>& box() const { return box_; }
+
+  /// Sets densities and tensions of a problem without items. Returns whether they are enclosed.
+  [[nodiscard]] bool add_tensions(BoxEnclosure<Interval>& result) {
+    lanes::Ends wrench[6];
+    for (int j = 0; j < 6; ++j) wrench[j] = lanes_detail::ends(model_.wrench(j));
+    if (kernel_.enclose_tensions(machine_, wrench, box_) != lanes::Outcome::kYes) {
+      Faults<Interval>::raise();
+      return false;
+    }
+    constexpr unsigned kAllCables = (1U << kCables) - 1;
+    if (box_.enclosed != kAllCables) return false;  // the box is too wide
+    for (std::size_t i = 0; i < kCables; ++i) {
+      set_from_lanes(box_.nominal, i, result.density[i]);
+      set_from_lanes(box_.spread, i, result.below[i]);
+      result.above[i] = result.below[i];
+      set_from_lanes(box_.low, i, result.low[i]);
+      set_from_lanes(box_.high, i, result.high[i]);
+    }
+    return true;
   }
-  constexpr unsigned kAllCables = (1U << kCables) - 1;
-  if (box.enclosed != kAllCables) return;  // the box is too wide
-  for (std::size_t i = 0; i < kCables; ++i) {
-    set_from_lanes(box.nominal, i, result.density[i]);
-    set_from_lanes(box.spread, i, result.below[i]);
-    result.above[i] = result.below[i];
-    set_from_lanes(box.low, i, result.low[i]);
-    set_from_lanes(box.high, i, result.high[i]);
-  }
-  result.regular = true;
-  add_tension_margins(problem.model, result);
-}
+
+ private:
+  const lanes::Machine& machine_;
+  const Model<Interval>& model_;
+  const lanes::BoxKernel<1>& kernel_ = lanes::kernels().box;
+  lanes::Box<1> box_;
+};
 
 }  // namespace
 
@@ -514,8 +520,24 @@ void add_disturbance(const ProofModel<I>& problem, UndisturbedBox<I> undisturbed
 
 namespace {
 
+/// Boxes less deep than this are likely to be too wide for a move, too, if they are at rest.
+constexpr int kDeepestAtRest = 4;
+
+/// Whether only the midpoint is shown to have its tensions within their limits.
+template <class I>
+bool is_too_wide_at_rest(const Model<I>& model, const BoxEnclosure<I>& box) {
+  bool is_wide = false;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const I &lower = model.tension_lower[i], &upper = model.tension_upper[i];
+    const SlopeForm<I>&low = box.low[i], &high = box.high[i];
+    if (!certainly_positive(low.at_mid - lower) || !certainly_positive(upper - high.at_mid)) return false;
+    is_wide = is_wide || !certainly_positive(low.range - lower) || !certainly_positive(upper - high.range);
+  }
+  return is_wide;
+}
+
 /// enclose_box(). Of a move, `mid` may be left out where nothing depends on it: then statements about the midpoint are
-/// no sharper than those about the box.
+/// no sharper than those about the box. And what inertia adds is left out where the box is too wide without it.
 enum class Midpoint { kAlways, kIfUnproved };
 template <class I>
 BoxEnclosure<I> enclose(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
@@ -534,39 +556,56 @@ BoxEnclosure<I> enclose(const ProofModel<I>& problem, const Segment& segment, co
   if (problem.bodies) result.pose = motion;
   const bool is_moving = segment.timing != nullptr;
   if (is_moving && !problem.moving) throw std::logic_error("a move of a problem without limits in time");
+  std::optional<CableGeometry<SlopeForm<I>>> geometry;
+  InverseBound<I> inverse;
+  std::optional<BoxInLanes> in_lanes;
   if constexpr (std::is_same_v<I, Interval>) {
-    if (problem.lanes && model.loads.empty() && !problem.tolerance && !is_moving) {
-      enclose_in_lanes(problem, motion, radius, result);
-      return result;
+    if (problem.lanes && !problem.tolerance) {
+      in_lanes.emplace(problem);
+      if (!in_lanes->invert(motion, radius, result)) return result;
+      if (is_moving || !model.loads.empty()) inverse.set(in_lanes->box());
     }
   }
-  const CableGeometry<SlopeForm<I>> geometry = cable_geometry(model, motion.p_WP, motion.r_WP);
-  for (std::size_t i = 0; i < kCables; ++i) {
-    result.length[i] = length(geometry.p_AB_W[i]);
-    result.length[i].tighten(offset);
+  if (!in_lanes) {
+    geometry = cable_geometry(model, motion.p_WP, motion.r_WP);
+    for (std::size_t i = 0; i < kCables; ++i) {
+      result.length[i] = length(geometry->p_AB_W[i]);
+      result.length[i].tighten(offset);
+    }
+    add_length_margins(model, result);
+    if (!inverse.set(geometry->force_density, radius)) return result;
   }
-  add_length_margins(model, result);
-
-  InverseBound<I> inverse;
-  if (!inverse.set(geometry.force_density, radius)) return result;
+  Densities<I> densities;
+  if constexpr (std::is_same_v<I, Interval>) {
+    if (in_lanes && model.loads.empty()) {
+      if (!in_lanes->add_tensions(result)) return result;
+    }
+  }
+  if (!in_lanes || !model.loads.empty()) {
+    densities = enclose_densities(problem, motion.r_WP, inverse, radius, offset, model.wrench);
+    if (!densities.are_enclosed) return result;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      result.density[i] = densities.nominal[i];
+      result.below[i] = densities.below[i];
+      result.above[i] = densities.above[i];
+    }
+    set_tensions(result);
+  }
+  result.regular = true;
+  if (is_moving && mid == Midpoint::kIfUnproved && box.depth < kDeepestAtRest && is_too_wide_at_rest(model, result)) {
+    add_tension_margins(model, result);
+    return result;
+  }
   std::optional<Inertia<I>> inertia;
   if (is_moving) {
-    inertia = Inertia<I>::of(problem, segment, s);
-    if (!inertia) {
+    std::optional<Moving<I>> over = problem.moving->over(model, segment, s.range, {motion, s.mid});
+    if (!over) {
       result.motion = MotionEnclosure<I>::Status::kUnproved;
       return result;
     }
+    inertia.emplace(*std::move(over));
+    inertia->add(problem, inverse, result);
   }
-  const Densities<I> densities = enclose_densities(problem, motion.r_WP, inverse, radius, offset, model.wrench);
-  if (!densities.are_enclosed) return result;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    result.density[i] = densities.nominal[i];
-    result.below[i] = densities.below[i];
-    result.above[i] = densities.above[i];
-  }
-  result.regular = true;
-  set_tensions(result);
-  if (inertia) inertia->add(problem, inverse, result);
   add_tension_margins(model, result);
   // Of rates nothing is asked where a tension or a length is not proved.
   const bool are_rates_asked = inertia && (mid == Midpoint::kAlways || result.margins.are_positive());
@@ -592,7 +631,7 @@ BoxEnclosure<I> enclose(const ProofModel<I>& problem, const Segment& segment, co
   const UndisturbedBox<I> undisturbed{model,
                                       problem.item_rows,
                                       motion,
-                                      geometry,
+                                      *geometry,
                                       result.length,
                                       result.density,
                                       densities.radius,
@@ -763,7 +802,7 @@ void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure
 
 /// Of a box on which all tensions and lengths are proved.
 template <class I>
-void judge_rates(const typename BoxEnclosure<I>::RateMargins& rates, BoxVerdict& verdict) {
+void judge_rates(const typename BoxEnclosure<I>::Rates& rates, BoxVerdict& verdict) {
   using Kind = BoxVerdict::Kind;
   for (std::size_t n = 0; n < rates.over.size(); ++n) {
     const I& at_mid = rates.at_mid[n].value;

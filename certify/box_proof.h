@@ -98,11 +98,11 @@ struct BoxEnclosure {
   std::optional<MotionEnclosure<I>> pose;          ///< only where the problem has bodies
   /// Of a move in time: limits less rates, at the midpoint and on all of T. Tensions are those with inertia then, of
   /// every time at which the move is there; their slopes are those at rest.
-  struct RateMargins {
-    std::vector<RateMargin<I>> at_mid, over;
-    std::vector<RateMargin<I>> undisturbed;  ///< as `over`, with the undisturbed machine's tensions
+  struct Rates {
+    RateMargins<I> at_mid, over;
+    RateMargins<I> undisturbed;  ///< as `over`, with the undisturbed machine's tensions
   };
-  std::optional<RateMargins> rates;
+  std::optional<Rates> rates;
   /// Of a move that may be slowed down: at the midpoint, while it is, something is not shown to be within its limits.
   bool is_slowed_badly = false;
   /// What deviations may change: only where the problem has tolerances, the undisturbed margins are positive on all of

@@ -12,8 +12,11 @@
 // |v| is far below |A1||x|, as the columns of D^-1 change little. Proof of each step: docs/theory.md, "A box".
 #pragma once
 
+#include <type_traits>
+
 #include "certify/arithmetic/neumann.h"
 #include "certify/arithmetic/slope_form.h"
+#include "certify/lanes/kernel.h"
 #include "kinematics/statics.h"
 
 namespace taut {
@@ -28,6 +31,8 @@ class InverseBound {
 
   /// Whether D is proved non-singular on all of T; what follows is void otherwise.
   [[nodiscard]] bool set(const Matrix6<SlopeForm<I>>& force_density, double radius);
+  /// What set() finds, from lanes. @pre BoxKernel::bound_inverse() of this box
+  void set(const lanes::Box<1>& box) requires std::is_same_v<I, Interval>;
 
   /// P x over T for the columns x = C B of constants.
   template <std::size_t N>
@@ -87,6 +92,21 @@ bool InverseBound<I>::set(const Matrix6<SlopeForm<I>>& force_density, double rad
     }
   }
   return neumann_bound<I>(n0, q0_) && neumann_bound<I>(n, q_);
+}
+
+template <class I>
+void InverseBound<I>::set(const lanes::Box<1>& box) requires std::is_same_v<I, Interval> {
+  radius_ = box.radius[0];
+  for (std::size_t j = 0; j < 6; ++j) {
+    const lanes::IntervalRow& a1 = box.a1[0][j];
+    for (std::size_t i = 0; i < 6; ++i) {
+      c_(static_cast<int>(i), static_cast<int>(j)) = box.c[j].x[i];
+      a1_[i][j] = I(-a1.minus_lower.x[i], a1.upper.x[i]);
+      a1_magnitude_[i][j] = Upper(box.a1_size[0][j].x[i]);
+      q0_[i][j] = Upper(box.q0[j].x[i]);
+      q_[i][j] = Upper(box.q[j].x[i]);
+    }
+  }
 }
 
 template <class I>

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,8 @@ namespace taut {
 template <class S, int N>
 class ConstrainedCurve {
  public:
+  using Parameters = boost::container::static_vector<Taylor<S, N>, kMaxConstrainedParameters>;
+
   /// @pre each control point has a finite entry of N for each constraint
   ConstrainedCurve(const Segment& segment, std::size_t count, const S& range) : count_(count) {
     for (std::size_t j = 0; j < segment.control[0]->x.size(); ++j) {
@@ -37,21 +40,28 @@ class ConstrainedCurve {
   [[nodiscard]] std::size_t count() const { return count_; }
 
   /// @param y  with its derivatives
-  [[nodiscard]] std::vector<Taylor<S, N>> at(const std::array<Taylor<S, N>, 6>& y) const {
-    std::vector<Taylor<S, N>> result = line_;
+  [[nodiscard]] Parameters at(const std::array<Taylor<S, N>, 6>& y) const {
+    Parameters result = line_;
     for (std::size_t j = 0; j < line_.size(); ++j) {
       for (std::size_t i = 0; i < count_; ++i) result[j] = result[j] + normals_[j * count_ + i] * y[i];
     }
     return result;
   }
 
-  /// F_y = C' N at the parameters `lambda`; the rest of it is that of the unit matrix.
-  [[nodiscard]] Matrix6<S> by_unknowns(const Evaluator<Jet<S, kMaxConstrainedParameters>>& constraints,
-                                       std::span<const S> lambda) const {
+  using Gradients = boost::container::static_vector<Jet<S, kMaxConstrainedParameters>, kMaxConstrainedParameters>;
+  /// C' at the parameters `lambda`.
+  [[nodiscard]] Gradients gradients(const Evaluator<Jet<S, kMaxConstrainedParameters>>& constraints,
+                                    std::span<const S> lambda) const {
     using J = Jet<S, kMaxConstrainedParameters>;
-    std::vector<J> at(lambda.size()), c(count_);
+    std::array<J, kMaxConstrainedParameters> at;
     for (std::size_t j = 0; j < lambda.size(); ++j) at[j] = J(lambda[j], static_cast<int>(j));
-    constraints.evaluate(at, c);
+    Gradients result(count_);
+    constraints.evaluate(std::span<const J>(at.data(), lambda.size()), std::span<J>(result.data(), count_));
+    return result;
+  }
+
+  /// F_y = C' N; the rest of it is that of the unit matrix.
+  [[nodiscard]] Matrix6<S> by_unknowns(const Gradients& c) const {
     Matrix6<S> result;
     for (int e = 0; e < 6; ++e) {
       for (int i = 0; i < 6; ++i) result(e, i) = S(e == i ? 1.0 : 0.0);
@@ -59,10 +69,23 @@ class ConstrainedCurve {
     for (std::size_t e = 0; e < count_; ++e) {
       for (std::size_t i = 0; i < count_; ++i) {
         S sum(0.0);
-        for (std::size_t j = 0; j < lambda.size(); ++j) {
-          sum = sum + c[e].partial[j] * normals_[j * count_ + i].d[0];
-        }
+        for (std::size_t j = 0; j < line_.size(); ++j) sum = sum + c[e].partial[j] * normals_[j * count_ + i].d[0];
         result(static_cast<int>(e), static_cast<int>(i)) = sum;
+      }
+    }
+    return result;
+  }
+
+  /// F_s = C' (ℓ' + N' y), likewise.
+  [[nodiscard]] Vector6<S> by_place(const Gradients& c, const Vector6<S>& y) const {
+    Vector6<S> result;
+    result.fill(S(0.0));
+    for (std::size_t j = 0; j < line_.size(); ++j) {
+      S moved = line_[j].d[1];
+      for (std::size_t i = 0; i < count_; ++i) moved = moved + normals_[j * count_ + i].d[1] * y(static_cast<int>(i));
+      for (std::size_t e = 0; e < count_; ++e) {
+        S& sum = result(static_cast<int>(e));
+        sum = sum + c[e].partial[j] * moved;
       }
     }
     return result;
@@ -70,22 +93,29 @@ class ConstrainedCurve {
 
  private:
   std::size_t count_;
-  std::vector<Taylor<S, N>> line_;     ///< ℓ
-  std::vector<Taylor<S, N>> normals_;  ///< N by rows
+  Parameters line_;  ///< ℓ
+  /// N by rows.
+  boost::container::static_vector<Taylor<S, N>, kMaxConstrainedParameters * kMaxConstrainedParameters> normals_;
 };
 
-/// λ with its derivatives, where y are the unknowns that satisfy C(λ) = 0 and divide(v) is F_y^-1 v.
+/// λ with its derivatives, where y are the unknowns that satisfy C(λ) = 0, `gradients` are C' there and divide(v) is
+/// F_y^-1 v.
 template <class S, int N, class Divide>
-[[nodiscard]] std::vector<Taylor<S, N>> implied_parameters(const Evaluator<Taylor<S, N>>& constraints,
-                                                           const ConstrainedCurve<S, N>& curve, const Vector6<S>& y,
-                                                           const Divide& divide) {
+[[nodiscard]] typename ConstrainedCurve<S, N>::Parameters implied_parameters(
+    const Evaluator<Taylor<S, N>>& constraints, const ConstrainedCurve<S, N>& curve,
+    const typename ConstrainedCurve<S, N>::Gradients& gradients, const Vector6<S>& y, const Divide& divide) {
   std::array<Taylor<S, N>, 6> unknowns;
   for (std::size_t i = 0; i < 6; ++i) unknowns[i] = Taylor<S, N>(y(static_cast<int>(i)));
-  std::vector<Taylor<S, N>> values(curve.count());
+  Vector6<S> left = curve.by_place(gradients, y);  // what F changes by if y^(n) is 0
   for (std::size_t n = 1; n <= N; ++n) {
-    constraints.evaluate(curve.at(unknowns), values);
+    if (n > 1) {
+      const auto at = curve.at(unknowns);
+      std::array<Taylor<S, N>, kMaxConstrainedParameters> values;
+      constraints.evaluate(std::span(at.data(), at.size()), std::span(values.data(), curve.count()));
+      for (std::size_t e = 0; e < curve.count(); ++e) left(static_cast<int>(e)) = values[e].d[n];
+    }
     Vector6<S> rest;
-    for (std::size_t e = 0; e < 6; ++e) rest(static_cast<int>(e)) = e < values.size() ? S(-values[e].d[n]) : S(0.0);
+    for (int e = 0; e < 6; ++e) rest(e) = -left(e);
     const Vector6<S> found = divide(rest);
     for (std::size_t i = 0; i < curve.count(); ++i) unknowns[i].d[n] = found(static_cast<int>(i));
   }

@@ -33,10 +33,11 @@ PathRates<double> RatesSampler::on_constraints(const Segment& segment, double s)
   for (std::size_t i = 0; i < 6; ++i) unknowns[i] = Taylor<double, 2>(y(static_cast<int>(i)));
   std::vector<double> lambda;
   for (const Taylor<double, 2>& x : curve.at(unknowns)) lambda.push_back(x.d[0]);
-  const Eigen::PartialPivLU<Matrix6<double>> by_y(curve.by_unknowns(constraints_->gradients, lambda));
-  const std::vector<Taylor<double, 2>> parameters = implied_parameters(
-      constraints_->derivatives, curve, y, [&](const Vector6<double>& v) { return Vector6<double>(by_y.solve(v)); });
-  return rates_.of(parameters);
+  const auto gradients = curve.gradients(constraints_->gradients, lambda);
+  const Eigen::PartialPivLU<Matrix6<double>> by_y(curve.by_unknowns(gradients));
+  const auto parameters = implied_parameters(constraints_->derivatives, curve, gradients, y,
+                                             [&](const Vector6<double>& v) { return Vector6<double>(by_y.solve(v)); });
+  return rates_.of(std::span(parameters.data(), parameters.size()));
 }
 
 PathRates<double> RatesSampler::along_geodesic(const Segment& segment, double s) const {

@@ -153,21 +153,27 @@ bool has_normals(const Segment& segment, std::size_t count) {
 
 template <class I, std::size_t K = 1>
 bool implied_parameters(const ConstraintModel<I>& constraints, const Segment& segment, const I& range, const I& mid,
-                        const I& offset, Parameters<I>& parameters, ImpliedParameters<I>* unknowns = nullptr) {
+                        const I& offset, Parameters<I>& parameters, ImpliedParameters<I>& result) {
   if (constraints.count == K) {
     const Parameters<I> line = parameters;
     const ConstraintSystem<K, I> system(constraints, segment, line, range, mid);
     std::array<SlopeForm<I>, K> y;
     if (!ParametricKrawczyk<K, I, ConstraintSystem<K, I>>(system, offset, segment.tube).enclose(y)) return false;
     parameters = system.parameters(y, offset);
-    for (std::size_t i = 0; unknowns != nullptr && i < K; ++i) {
-      unknowns->over.y(static_cast<int>(i)) = y[i].range;
-      unknowns->at_mid.y(static_cast<int>(i)) = y[i].at_mid;
+    result.over.y.fill(I(0.0));
+    result.at_mid.y.fill(I(0.0));
+    for (std::size_t i = 0; i < K; ++i) {
+      result.over.y(static_cast<int>(i)) = y[i].range;
+      result.at_mid.y(static_cast<int>(i)) = y[i].at_mid;
+    }
+    for (const SlopeForm<I>& x : parameters) {
+      result.over.lambda.push_back(x.range);
+      result.at_mid.lambda.push_back(x.at_mid);
     }
     return true;
   }
   if constexpr (K + 1 < kMaxConstrainedParameters) {
-    return implied_parameters<I, K + 1>(constraints, segment, range, mid, offset, parameters, unknowns);
+    return implied_parameters<I, K + 1>(constraints, segment, range, mid, offset, parameters, result);
   }
   return false;
 }
@@ -316,13 +322,8 @@ std::optional<ImpliedParameters<I>> enclose_implied_parameters(const ConstraintM
                                                                const I& offset) {
   if (!has_normals(segment, constraints.count)) return std::nullopt;
   Parameters<I> parameters = line_over_box(segment, range, mid, offset);
-  ImpliedParameters<I> result;
-  for (int k = 0; k < 6; ++k) result.over.y(k) = result.at_mid.y(k) = I(0.0);
-  if (!implied_parameters(constraints, segment, range, mid, offset, parameters, &result)) return std::nullopt;
-  for (const SlopeForm<I>& x : parameters) {
-    result.over.lambda.push_back(x.range);
-    result.at_mid.lambda.push_back(x.at_mid);
-  }
+  std::optional<ImpliedParameters<I>> result(std::in_place);
+  if (!implied_parameters(constraints, segment, range, mid, offset, parameters, *result)) result.reset();
   return result;
 }
 
@@ -340,10 +341,10 @@ MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& se
   Parameters<I> parameters = line_over_box(segment, range, mid, offset);
   result.status = Status::kKnown;
   if (model.constraints) {
+    result.implied.emplace();
     if (!has_normals(segment, model.constraints->count) ||
-        !implied_parameters(*model.constraints, segment, range, mid, offset, parameters)) {
-      result.status = Status::kUnproved;
-      return result;
+        !implied_parameters(*model.constraints, segment, range, mid, offset, parameters, *result.implied)) {
+      return {};
     }
     result.status = within_ranges(model, parameters);
   }

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <optional>
 #include <vector>
 
@@ -46,6 +47,16 @@ struct MotionModel {
 template <class I>
 [[nodiscard]] MotionModel<I> make_motion_model(const Problem& problem);
 
+/// What constraints imply, over T and at m: y of segment.h, as the first of six unknowns of which the others are 0, and
+/// λ.
+template <class I>
+struct ImpliedParameters {
+  struct Where {
+    Vector6<I> y;
+    boost::container::static_vector<I, kMaxConstrainedParameters> lambda;
+  };
+  Where over, at_mid;
+};
 /// γ over a box T with midpoint m.
 template <class I>
 struct MotionEnclosure {
@@ -60,6 +71,7 @@ struct MotionEnclosure {
   [[nodiscard]] bool is_enclosed() const { return status != Status::kUnproved && status != Status::kSpansKnot; }
   Vector3<SlopeForm<I>> p_WP;  ///< [m]
   Matrix3<SlopeForm<I>> r_WP;
+  std::optional<ImpliedParameters<I>> implied = {};  ///< in a space with constraints
 };
 
 /// For t in `range` with midpoint `mid`; `offset` encloses t − mid. Void if a fault was raised.
@@ -70,16 +82,6 @@ template <class I>
 [[nodiscard]] MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& segment, const I& range,
                                                 const I& mid, const I& offset);
 
-/// What constraints imply, over T and at m: y of segment.h, as the first of six unknowns of which the others are 0, and
-/// λ.
-template <class I>
-struct ImpliedParameters {
-  struct Where {
-    Vector6<I> y;
-    std::vector<I> lambda;
-  };
-  Where over, at_mid;
-};
 /// Nothing where they are not shown to imply one motion in the tube. Parameters may be out of their ranges. Arguments
 /// as of enclose_motion(). @pre the law runs through parameters
 template <class I>

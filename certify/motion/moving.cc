@@ -92,7 +92,7 @@ I MovingModel<I>::magnitude(RatesAlong<I>& along, const Part& part, const Corner
 
 template <class I>
 typename MovingModel<I>::Limits MovingModel<I>::narrow(RatesAlong<I>& along, const Part& part, Limits open,
-                                                       std::vector<I>& sizes) const {
+                                                       Sizes& sizes) const {
   const auto is_open = [&](std::size_t n) { return (open >> n & 1U) != 0; };
   const auto close = [&](std::size_t n) {
     if (certainly_positive(I(limits_[n].most - sizes[n]))) open &= ~(Limits{1} << n);
@@ -128,7 +128,7 @@ LawRange<I> MovingModel<I>::law_over(const TimeLaw& law, const TimeCover& times)
 
 template <class I>
 bool MovingModel<I>::are_kept(RatesAlong<I>& along, const TimeCover& times, Limits open, int depth, Halving& halving,
-                              std::vector<I>& sizes) const {
+                              Sizes& sizes) const {
   const auto are_halves_kept = [&](Limits limits) {
     return std::ranges::all_of(
         halves(times), [&](const TimeCover& half) { return are_kept(along, half, limits, depth + 1, halving, sizes); });
@@ -141,7 +141,7 @@ bool MovingModel<I>::are_kept(RatesAlong<I>& along, const TimeCover& times, Limi
   const I &begin = places.lower() > range.lower() ? places : range,
           &end = places.upper() < range.upper() ? places : range;
   const Part part{times, hull(I(begin.lower()), I(end.upper())), law_over(law, times), Speeds::kAny};
-  std::vector<I> found = sizes;
+  Sizes found = sizes;
   const Limits left = narrow(along, part, open, found);
   for (std::size_t n = 0; n < limits_.size(); ++n) {
     const Limits limit = Limits{1} << n;
@@ -158,10 +158,10 @@ bool MovingModel<I>::are_kept(RatesAlong<I>& along, const TimeCover& times, Limi
 }
 
 template <class I>
-bool MovingModel<I>::are_kept_over(RatesAlong<I>& along, const TimeCover& times, Limits open, std::vector<I>& sizes,
+bool MovingModel<I>::are_kept_over(RatesAlong<I>& along, const TimeCover& times, Limits open, Sizes& sizes,
                                    int bisections) const {
   along.look_at_middle();
-  std::vector<I> found = sizes;
+  Sizes found = sizes;
   Halving halving;
   if (are_kept(along, times, open, 0, halving, found)) {
     sizes = std::move(found);
@@ -173,18 +173,18 @@ bool MovingModel<I>::are_kept_over(RatesAlong<I>& along, const TimeCover& times,
   const double middle = midpoint_approx(range);
   return std::ranges::all_of(
       std::array{hull(I(lower_bound(range)), I(middle)), hull(I(middle), I(upper_bound(range)))}, [&](const I& half) {
-        std::optional<RatesAlong<I>> on_half = along.over_part(half);
-        return on_half && are_kept_over(*on_half, time_cover(*segment.timing, on_path(segment, half)), open, sizes,
-                                        bisections - 1);
+        const std::unique_ptr<RatesAlong<I>> on_half = along.over_part(half);
+        return on_half != nullptr && are_kept_over(*on_half, time_cover(*segment.timing, on_path(segment, half)), open,
+                                                   sizes, bisections - 1);
       });
 }
 
 template <class I>
 std::optional<Moving<I>> MovingModel<I>::at(const Model<I>& model, const Segment& segment, const I& place,
-                                            Speeds speeds) const {
+                                            Speeds speeds, const KnownMotion<I>* known) const {
   if (segment.timing == nullptr) throw std::logic_error("a segment without a time law");
-  std::optional<RatesAlong<I>> along = RatesAlong<I>::over(rates_, model, segment, place);
-  if (!along) return std::nullopt;
+  std::unique_ptr<RatesAlong<I>> along = RatesAlong<I>::over(rates_, model, segment, place, known);
+  if (along == nullptr) return std::nullopt;
   const PathRates<I>& path = along->path();
   const TimeCover times = time_cover(*segment.timing, on_path(segment, place));
   const LawRange<I> at_full_speed = law_over(*segment.timing, times);
@@ -199,7 +199,7 @@ std::optional<Moving<I>> MovingModel<I>::at(const Model<I>& model, const Segment
                       inertial_wrench(bodies_, path.r_WP, by_time(path, one, none)), law.acceleration, sqr(law.rate)};
   }
   result->part = {times, place, at_full_speed, speeds};
-  result->along = std::make_unique<RatesAlong<I>>(*std::move(along));
+  result->along = std::move(along);
   return result;
 }
 
@@ -209,7 +209,6 @@ void MovingModel<I>::bound_rates(Moving<I>& moving) const {
   const Part& part = moving.part;
   const Corners corners = corners_of(along, part);
   moving.margins.clear();
-  moving.margins.reserve(limits_.size());
   for (const Limit& limit : limits_) {
     const I size = magnitude(along, part, corners, limit.id);
     moving.margins.push_back({limit.id, size, limit.most - size});
@@ -227,8 +226,9 @@ void MovingModel<I>::bound_rates(Moving<I>& moving) const {
 }
 
 template <class I>
-std::optional<Moving<I>> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range) const {
-  return at(model, segment, range, Speeds::kAny);
+std::optional<Moving<I>> MovingModel<I>::over(const Model<I>& model, const Segment& segment, const I& range,
+                                              const KnownMotion<I>& known) const {
+  return at(model, segment, range, Speeds::kAny, &known);
 }
 
 template <class I>
@@ -238,7 +238,7 @@ void MovingModel<I>::tighten(Moving<I>& moving) const {
     if (!certainly_positive(moving.margins[n].value)) open |= Limits{1} << n;
   }
   if (open == 0) return;
-  std::vector<I> sizes(limits_.size(), I(0.0));
+  Sizes sizes(limits_.size(), I(0.0));
   if (!are_kept_over(*moving.along, moving.part.times, open, sizes, kMostBisections)) return;
   for (std::size_t n = 0; n < limits_.size(); ++n) {
     if ((open >> n & 1U) != 0) moving.margins[n] = {limits_[n].id, sizes[n], limits_[n].most - sizes[n]};
@@ -247,7 +247,7 @@ void MovingModel<I>::tighten(Moving<I>& moving) const {
 
 template <class I>
 void MovingModel<I>::add_powers(const Moving<I>& moving, const std::array<I, kCables>& tension,
-                                std::vector<RateMargin<I>>& margins) const {
+                                RateMargins<I>& margins) const {
   for (const Limit& limit : powers_) {
     const auto i = static_cast<std::size_t>(limit.id.cable);
     const I size = moving.winch_speed[i] * absolute(tension[i]);

@@ -47,6 +47,10 @@ struct InertiaByLaw {
   I square;        ///< ṡ² [1/s²]
 };
 
+/// Of all limits that a problem may state: speeds, accelerations and powers of winches, and four of the load.
+template <class I>
+using RateMargins = boost::container::static_vector<RateMargin<I>, 3 * kCables + 4>;
+
 /// Which speeds are meant: those of the law, or all at which the move may be run.
 enum class Speeds { kOfLaw, kAny };
 
@@ -59,7 +63,7 @@ struct Moving {
   Rates<I> rates;
 
   /// After bound_rates(). Where the speed is any, of the speeds that no other exceeds.
-  std::vector<RateMargin<I>> margins;  ///< of all limits that the problem states, but for those of power
+  RateMargins<I> margins;              ///< of all limits that the problem states, but for those of power
   std::array<I, kCables> winch_speed;  ///< |L̇| when the move is fastest [m/s]; only where powers are limited
 
   /// All times at which the move is in a part of a segment, or some of these.
@@ -84,9 +88,11 @@ class MovingModel {
 
   /// At one place; nothing where the motion is not proved to be known (MotionRates::over()). @pre segment.timing
   [[nodiscard]] std::optional<Moving<I>> at(const Model<I>& model, const Segment& segment, const I& place,
-                                            Speeds speeds = Speeds::kOfLaw) const;
-  /// All over a part of the segment, at any speed at which the move may be run; likewise.
-  [[nodiscard]] std::optional<Moving<I>> over(const Model<I>& model, const Segment& segment, const I& range) const;
+                                            Speeds speeds = Speeds::kOfLaw,
+                                            const KnownMotion<I>* known = nullptr) const;
+  /// All over a part of the segment, of which the motion is known, at any speed at which the move may be run; likewise.
+  [[nodiscard]] std::optional<Moving<I>> over(const Model<I>& model, const Segment& segment, const I& range,
+                                              const KnownMotion<I>& known) const;
   /// Sets `margins` and `winch_speed`.
   void bound_rates(Moving<I>& moving) const;
   /// After that, bounds the margins of over() that are not positive once more, from parts of the times.
@@ -101,8 +107,7 @@ class MovingModel {
   [[nodiscard]] Vector6<I> change(const Moving<I>& undisturbed, const I& turn) const;
 
   /// The limits of power that the problem states, where the greatest tensions of a box are `tension` [N].
-  void add_powers(const Moving<I>& moving, const std::array<I, kCables>& tension,
-                  std::vector<RateMargin<I>>& margins) const;
+  void add_powers(const Moving<I>& moving, const std::array<I, kCables>& tension, RateMargins<I>& margins) const;
 
  private:
   struct Limit {
@@ -115,7 +120,8 @@ class MovingModel {
     I speed;   ///< τ'
     I change;  ///< τ'' [1/s]
   };
-  using Limits = std::uint32_t;  ///< a set of limits_
+  using Limits = std::uint32_t;                                       ///< a set of limits_
+  using Sizes = boost::container::static_vector<I, 2 * kCables + 4>;  ///< one a limit
 
   /// σ' and σ'' at these times, or what they are at that pace.
   [[nodiscard]] LawRange<I> law_over(const TimeLaw& law, const TimeCover& times) const;
@@ -131,7 +137,7 @@ class MovingModel {
   [[nodiscard]] Corners corners_of(const RatesAlong<I>& along, const Part& part) const;
   [[nodiscard]] I magnitude(RatesAlong<I>& along, const Part& part, const Corners& corners, const RateId& id) const;
   /// Encloses the rates of the open limits. Returns those of which that does not show that they are kept.
-  [[nodiscard]] Limits narrow(RatesAlong<I>& along, const Part& part, Limits open, std::vector<I>& sizes) const;
+  [[nodiscard]] Limits narrow(RatesAlong<I>& along, const Part& part, Limits open, Sizes& sizes) const;
   /// How far the times of a box were halved until the last parts kept their limits: what is likely to do next.
   struct Halving {
     static constexpr int kMost = 3;  ///< more seldom do
@@ -140,9 +146,9 @@ class MovingModel {
   /// Whether limits are kept at all of these times at which the move is in along.range(). `sizes` grow by what is
   /// found.
   [[nodiscard]] bool are_kept(RatesAlong<I>& along, const TimeCover& times, Limits open, int depth, Halving& halving,
-                              std::vector<I>& sizes) const;
+                              Sizes& sizes) const;
   /// Likewise; where that fails, of both halves of the part that `along` is over, and so on. All or none are found.
-  [[nodiscard]] bool are_kept_over(RatesAlong<I>& along, const TimeCover& times, Limits open, std::vector<I>& sizes,
+  [[nodiscard]] bool are_kept_over(RatesAlong<I>& along, const TimeCover& times, Limits open, Sizes& sizes,
                                    int bisections) const;
   static constexpr int kMostBisections = 2;  ///< more take as long as smaller boxes
 

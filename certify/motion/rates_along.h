@@ -12,9 +12,11 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 #include "certify/arithmetic/neumann.h"
+#include "certify/motion/forms_in_lanes.h"
 #include "certify/motion/law_range.h"
 #include "certify/motion/motion_rates.h"
 #include "kinematics/moving_load.h"
@@ -25,15 +27,17 @@ namespace taut {
 template <class I>
 class RatesAlong {
  public:
-  /// Nothing where the motion is not proved to be known. All arguments but `range` have to outlive this.
-  [[nodiscard]] static std::optional<RatesAlong> over(const MotionRates<I>& rates, const Model<I>& model,
-                                                      const Segment& segment, const I& range) {
-    std::optional<Over> path = rates.over(model, segment, range);
-    if (!path) return std::nullopt;
-    return RatesAlong(rates, model, segment, *std::move(path));
+  /// Nothing where the motion is not proved to be known. All arguments but the last two have to outlive this.
+  /// @param known  of the same range
+  [[nodiscard]] static std::unique_ptr<RatesAlong> over(const MotionRates<I>& rates, const Model<I>& model,
+                                                        const Segment& segment, const I& range,
+                                                        const KnownMotion<I>* known = nullptr) {
+    std::optional<Over> path = rates.over(model, segment, range, known);
+    if (!path) return nullptr;
+    return std::unique_ptr<RatesAlong>(new RatesAlong(rates, model, segment, *std::move(path)));
   }
 
-  [[nodiscard]] std::optional<RatesAlong> over_part(const I& part) const {
+  [[nodiscard]] std::unique_ptr<RatesAlong> over_part(const I& part) const {
     return over(*rates_, *model_, *segment_, part);
   }
 
@@ -122,7 +126,9 @@ class RatesAlong {
   }
   [[nodiscard]] const Derivatives& derivatives(Thing thing) {
     std::optional<Derivatives>& all = all_[thing];
-    if (!all) all = derivatives(thing, over_.path);
+    if (!all) {
+      if (!is_winch(thing) || !set_winches()) all = derivatives(thing, over_.path);
+    }
     return *all;
   }
 
@@ -130,6 +136,7 @@ class RatesAlong {
   [[nodiscard]] const AroundMiddle& around_middle(Thing thing) {
     std::optional<AroundMiddle>& result = around_[thing];
     if (result) return *result;
+    if (is_winch(thing) && set_winches_around_middle()) return *result;
     result.emplace(AroundMiddle{derivatives(thing, *middle_), over_.path.w2});
     if (thing == kLoadPoint) result->h = third_derivative_at(over_.path, turned(over_.path.r_WP, model_->p_PM));
     if (!is_winch(thing)) return *result;
@@ -137,6 +144,47 @@ class RatesAlong {
     result->h(0) = third_derivative_of_length(*model_, thing, over_.path, WinchRate<I>{all.f(0), all.g(0)});
     return *result;
   }
+
+  /// The same of all winches at once, in lanes. Returns whether that is possible.
+  [[nodiscard]] bool set_winches() {
+    if constexpr (std::is_same_v<I, Interval>) {
+      if (rates_->lanes() == nullptr) return false;
+      lanes::LengthRates over;
+      differentiate(lanes_rates(over_.path), lanes::Order::kThird, over);
+      for (std::size_t i = 0; i < kCables; ++i) {
+        all_[i] = of_winch(over, i);
+        third_[i] = lanes_detail::interval(over.third, i);
+      }
+      return true;
+    }
+    return false;
+  }
+  [[nodiscard]] bool set_winches_around_middle() {
+    if constexpr (std::is_same_v<I, Interval>) {
+      if (rates_->lanes() == nullptr) return false;
+      if (!all_[0]) static_cast<void>(set_winches());
+      lanes::LengthRates at_mid;
+      differentiate(lanes_rates(*middle_), lanes::Order::kSecond, at_mid);
+      for (std::size_t i = 0; i < kCables; ++i) {
+        around_[i].emplace(AroundMiddle{of_winch(at_mid, i), over_.path.w2});
+        around_[i]->h(0) = third_[i];
+      }
+      return true;
+    }
+    return false;
+  }
+  void differentiate(const lanes::PlatformRates& by_s, lanes::Order order, lanes::LengthRates& result) const {
+    if (lanes::kernels().differentiate_lengths(*rates_->lanes(), by_s, order, result) == lanes::Outcome::kYes) return;
+    Faults<I>::raise();
+    result = {};
+  }
+  [[nodiscard]] static Derivatives of_winch(const lanes::LengthRates& rates, std::size_t i) {
+    Derivatives result;
+    result.f(0) = lanes_detail::interval(rates.first, i);
+    result.g(0) = lanes_detail::interval(rates.second, i);
+    return result;
+  }
+
   /// f and g at each place of `here`.
   [[nodiscard]] Derivatives on(Thing thing, const I& here) {
     Derivatives result = derivatives(thing);
@@ -171,6 +219,7 @@ class RatesAlong {
   std::optional<PathRates<I>> middle_;
   std::array<std::optional<Derivatives>, kThings> all_;
   std::array<std::optional<AroundMiddle>, kThings> around_;
+  std::array<I, kCables> third_;  ///< of winches over the part, where they were found in lanes
 };
 
 }  // namespace taut

@@ -209,6 +209,74 @@ void expect_as_differences(const Problem& problem, const oracle::Move& move, con
   }
 }
 
+/// w and its first two derivatives as [w] = R' Rᵀ says, of R and its derivatives.
+template <class S>
+std::array<Vector3<S>, 3> turning_of(const Matrix3<Taylor<S, 3>>& r) {
+  std::array<Vector3<S>, 3> w;
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 2) % 3, j = (k + 1) % 3;
+    Taylor<S, 2> sum(S(0.0));
+    for (int l = 0; l < 3; ++l) {
+      const auto &a = r(i, l).d, &b = r(j, l).d;
+      sum = sum + Taylor<S, 2>({a[1], a[2], a[3]}) * Taylor<S, 2>({b[0], b[1], b[2]});
+    }
+    for (std::size_t n = 0; n < 3; ++n) w[n](k) = sum.d[n];
+  }
+  return w;
+}
+
+TYPED_TEST(InTime, AnglesTurnAPlatformAsItsMatrixSays) {
+  using I = typename TypeParam::I;
+  Operands operands(29);
+  const std::array<AnglesText, 4> kinds = {{{AngleKind::kTiltAndTorsion},
+                                            {AngleKind::kRollPitchYaw},
+                                            {AngleKind::kZyz},
+                                            {AngleKind::kAxis, {"1", "-2", "0.5"}}}};
+  for (int trial = 0; trial < 400; ++trial) {
+    const AnglesText& kind = kinds[static_cast<std::size_t>(trial) % kinds.size()];
+    std::array<std::array<double, 4>, 3> derivatives;  // at 0
+    for (auto& of_angle : derivatives) {
+      for (double& x : of_angle) x = operands.uniform(-3, 3);
+    }
+    const auto angles_at = [&](const auto& u) {
+      using S = std::decay_t<decltype(u)>;
+      std::array<Taylor<S, 3>, 3> result;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto c = [&](std::size_t n) { return S(derivatives[k][n]); };
+        result[k].d = {c(0) + u * (c(1) + u * (c(2) / S(2.0) + u * (c(3) / S(6.0)))),
+                       c(1) + u * (c(2) + u * (c(3) / S(2.0))), c(2) + u * c(3), c(3)};
+      }
+      return result;
+    };
+    const double radius = operands.pick(2) == 0 ? 0 : 0.02;
+    std::array<Vector3<I>, 3> w;
+    std::array<Vector3<I>, 2> fewer;
+    ASSERT_TRUE(TypeParam::run([&] {
+      const Angles<I> angles = make_angles<I>(kind);
+      const std::array<Taylor<I, 3>, 3> x = angles_at(I(-radius, radius));
+      const Matrix3<I> r_WP = rotation(angles, std::array<I, 3>{x[0].d[0], x[1].d[0], x[2].d[0]});
+      w = turning<3>(angles, x, r_WP);
+      std::array<Taylor<I, 2>, 3> y;
+      for (std::size_t k = 0; k < 3; ++k) y[k].d = {x[k].d[0], x[k].d[1], x[k].d[2]};
+      fewer = turning<2>(angles, y, r_WP);
+    }));
+
+    using Fine = MpInterval;
+    const PrecisionScope precision(400);
+    const Angles<Fine> angles = make_angles<Fine>(kind);
+    const auto expected = turning_of(rotation(angles, angles_at(Fine(radius * operands.uniform(-1, 1)))));
+    const BigFloat error = oracle::big("1e-100");
+    for (std::size_t n = 0; n < 3; ++n) {
+      for (int k = 0; k < 3; ++k) {
+        const BigFloat value = lower_end(expected[n](k));
+        EXPECT_TRUE(holds(w[n](k), value, error)) << name(kind.kind) << ", derivative " << n << ", axis " << k;
+        EXPECT_TRUE(n == 2 || holds(fewer[n](k), value, error));
+        EXPECT_TRUE(radius > 0 || spread(w[n](k)) < 1e-11);
+      }
+    }
+  }
+}
+
 TYPED_TEST(InTime, LoadsAndWinchesMoveAsDifferencesSay) {
   using I = typename TypeParam::I;
   const std::vector<Space> spaces = {slice_space(), sphere_space(), free_space(robot2_sphere()), curved_space()};
