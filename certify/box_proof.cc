@@ -591,8 +591,8 @@ BoxEnclosure<I> enclose(const ProofModel<I>& problem, const Segment& segment, co
     }
     set_tensions(result);
   }
-  result.regular = true;
   if (is_moving && mid == Midpoint::kIfUnproved && box.depth < kDeepestAtRest && is_too_wide_at_rest(model, result)) {
+    result.regular = true;
     add_tension_margins(model, result);
     return result;
   }
@@ -606,6 +606,7 @@ BoxEnclosure<I> enclose(const ProofModel<I>& problem, const Segment& segment, co
     inertia.emplace(*std::move(over));
     inertia->add(problem, inverse, result);
   }
+  result.regular = true;
   add_tension_margins(model, result);
   // Of rates nothing is asked where a tension or a length is not proved.
   const bool are_rates_asked = inertia && (mid == Midpoint::kAlways || result.margins.are_positive());

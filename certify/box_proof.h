@@ -87,7 +87,7 @@ struct MarginList {
 /// What is known over one box, of the undisturbed machine but for `disturbance`.
 template <class I>
 struct BoxEnclosure {
-  typename MotionEnclosure<I>::Status motion;      ///< nothing below is set where the motion is unproved
+  typename MotionEnclosure<I>::Status motion;      ///< nothing below is claimed where it is unproved
   bool regular = false;                            ///< ρ < 1: J is non-singular on all of T, given positive lengths
   std::array<SlopeForm<I>, kCables> length;        ///< d_i [m]
   std::array<SlopeForm<I>, kCables> density;       ///< λ_i [N/m]; this and what follows only where regular

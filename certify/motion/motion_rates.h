@@ -30,7 +30,7 @@ class MotionRates {
   explicit MotionRates(const Problem& problem);
 
   struct Over {
-    I range, mid;  ///< `mid` is a number of the range
+    I range, mid;  ///< `mid` encloses a number of the range
     ThirdPathRates<I> path;
     /// The pose in the middle, where that is known.
     struct AtMid {

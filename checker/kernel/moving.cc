@@ -51,15 +51,15 @@ struct Times {
   std::size_t first = 0, last = 0;
   mpq_class u1 = 0, u2 = 1;
 
-  Times(const PiecewiseLaw& law, const mpq_class& a, const mpq_class& b) {
-    constexpr int kHalvings = 16;  // of a piece
+  /// @param halvings  of a piece, by which its ends are found
+  Times(const PiecewiseLaw& law, const mpq_class& a, const mpq_class& b, int halvings) {
     const std::size_t n = law.pieces();
     first = std::min(last_before(n, [&](std::size_t k) { return law.at_knot(k) < a; }), n - 1);
     const std::size_t behind = n - last_before(n, [&](std::size_t k) { return law.at_knot(n - k) > b; });
     last = std::max(first, behind == 0 ? 0 : behind - 1);
     const Polynomial first_piece = law.piece(first), last_piece = law.piece(last);
     mpq_class by(1, 2);
-    for (int k = 0; k < kHalvings; ++k, by /= 2) {
+    for (int k = 0; k < halvings; ++k, by /= 2) {
       if (at(first_piece, u1 + by) < a) u1 += by;
       if (at(last_piece, u2 - by) > b) u2 -= by;
     }
@@ -68,6 +68,14 @@ struct Times {
 
   static mpq_class at(const Polynomial& p, const mpq_class& u) { return p[0] + u * (p[1] + u * (p[2] + u * p[3])); }
 };
+
+/// Of the times of a box: the narrower it is, the more, so that they are not much longer than the move takes on it.
+int halvings_for(const Box& box) {
+  constexpr int kLeast = 16, kMost = 144;
+  int result = kLeast;
+  for (mpq_class width = box.end - box.begin; width < 1 && result < kMost; width *= 2) ++result;
+  return result;
+}
 
 /// How fast z changes over a box.
 struct Speed {
@@ -274,7 +282,7 @@ struct OnBox {
     frame = motion.over_box();
     const PiecewiseLaw pieces(*path.timing);
     const mpq_class step(path.timing->step_s), begin = k + box.begin, end = k + box.end;
-    const Times times(pieces, begin, end);
+    const Times times(pieces, begin, end, halvings_for(box));
     law = law_range(pieces, times, Ball(step));
     if (!limits_a_speed(*problem.time)) return;
     const std::optional<Instant> middle = middle_of(pieces, times, step, begin, end);

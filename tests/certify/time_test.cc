@@ -10,6 +10,7 @@
 #include <random>
 
 #include "certify/motion/law_range.h"
+#include "certify/motion/length_controlled_motion.h"
 #include "certify/motion/motion_rates.h"
 #include "certify/motion/rates_along.h"
 #include "kinematics/moving_load.h"
@@ -335,9 +336,21 @@ TYPED_TEST(InTime, MotionsThatAreImpliedMoveAsDifferencesSay) {
     std::optional<ThirdPathRates<I>> path;
     Vector6<I> wrench;
     WinchRates<I> winches;
+    const MotionModel<I> motions = make_motion_model<I>(problem);
+    const bool is_known = operands.coin(0.5);
     const bool is_sound = TypeParam::run([&] {
       const Model<I> model = make_model_without_ellipsoid<I>(problem);
-      if (const auto over = MotionRates<I>(problem).over(model, segment, I(s - radius, s + radius))) path = over->path;
+      const I range(s - radius, s + radius), mid(s), offset = range - mid;
+      MotionEnclosure<I> motion;
+      if (is_known && segment.law == Interpolation::kCableLengths) {
+        motion = forward_kinematics(model, segment, range, mid, offset);
+      } else if (is_known) {
+        motion = enclose_motion(motions, segment, range, mid, offset);
+      }
+      const KnownMotion<I> known{motion, mid};
+      const MotionRates<I> rates_of(problem);
+      const auto over = rates_of.over(model, segment, range, motion.is_enclosed() ? &known : nullptr);
+      if (over) path = over->path;
       if (!path) return;
       const Rates<I> rates = by_time(*path, I(rate), I(change));
       wrench = inertial_wrench<I>({body_of<I>(cloud, model.p_PM)}, path->r_WP, rates);

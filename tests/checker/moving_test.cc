@@ -170,6 +170,23 @@ TEST(KernelMoving, InertiaAndRatesAreThoseOfParticles) {
   EXPECT_LT(widest, 1e-3);
 }
 
+TEST(KernelMoving, AtAPlaceInertiaIsKnownFarBeyondTheTimesOfAWideBox) {
+  const PrecisionScope oracle(oracle::kMovingBits);
+  Operands operands(71);
+  double widest = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    RandomMove random(operands, 6);
+    if (random.box.begin == 0) continue;  // at rest
+    random.box.end = random.box.begin;
+    const Problem problem = to_kernel_in_time(random.machine);
+    const WorkingPrecision precision(random.box.bits);
+    const Moving said = moving(Machine(problem), problem, path_to_kernel(random.path), random.k, random.box);
+    for (const Ball& x : said.inertia) widest = std::max(widest, width(x));
+  }
+  EXPECT_GT(widest, 0);
+  EXPECT_LT(widest, 1e-12);
+}
+
 /// Tensions with what inertia takes.
 oracle::OracleStatics statics_of(const taut::Problem& problem, const testing::MovingMachine& machine,
                                  const oracle::Move& move, const BigFloat& t) {
