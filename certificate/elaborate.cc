@@ -29,8 +29,8 @@ namespace {
 using checker::Ball;
 
 constexpr std::array<int, 7> kBits = {64, 128, 256, 512, 1024, 2048, 4096};
-constexpr int kMostAttempts = 20'000;  ///< of one search
-constexpr int kMostHalvings = 900;     ///< of [0, 1]: a dyadic's denominator is at most 2^1000
+constexpr int kMostWork = 40'000;   ///< of one search, in attempts at the least precision
+constexpr int kMostHalvings = 900;  ///< of [0, 1]: a dyadic's denominator is at most 2^1000
 
 double lower_bound(const Ball& x) { return arf_get_d(arb_midref(lowest(x).get()), ARF_RND_FLOOR); }
 
@@ -258,7 +258,7 @@ class Elaborator::Search {
 
   /// What the kernel shows of one box at one go: bounds of margins, which may be negative; nothing where it shows none.
   std::optional<KernelBox> bounds(checker::Box box) {
-    ++attempts_;
+    work_ += work_at(box.bits);
     if (!place_motion(box)) return std::nullopt;
     for (const int guesses : {1, 2, 4, 12}) {
       box.guesses = guesses;
@@ -405,6 +405,9 @@ class Elaborator::Search {
     return false;
   }
 
+  /// What an attempt takes, beside one at the least precision.
+  static int work_at(int bits) { return bits / kBits.front(); }
+
   /// Finds where the motion is, if it is implied.
   bool place_motion(checker::Box& box) {
     if (!elaborator_.is_implied_) return true;
@@ -449,11 +452,12 @@ class Elaborator::Search {
   template <class Try>
   bool cover(const mpq_class& begin, const mpq_class& end, const Try& succeeds) {
     std::vector<Task> open = tasks(begin, end);
-    attempts_ = 0;
+    work_ = 0;
     while (!open.empty()) {
-      if (++attempts_ > kMostAttempts) return false;
       const Task task = std::move(open.back());
       open.pop_back();
+      work_ += work_at(kBits[task.rung]);
+      if (work_ > kMostWork) return false;
       if (!succeeds(task.box()) && !try_otherwise(task, succeeds, open)) return false;
     }
     return true;
@@ -515,7 +519,7 @@ class Elaborator::Search {
   std::size_t k_;  ///< which of its segments it is about
   PairDirections directions_;
   checker::Apart apart_;
-  int attempts_ = 0;
+  int work_ = 0;
 };
 
 /// Halves the boxes that state a path's least margins, or takes the way to their deviations in more parts, until what
