@@ -45,12 +45,12 @@ class MotionRates {
   /// @param known  of the same range
   [[nodiscard]] std::optional<Over> over(const Model<I>& model, const Segment& segment, const I& range,
                                          const KnownMotion<I>* known = nullptr) const;
-  /// The machine for forms_in_lanes.h; only for Interval, else null.
-  [[nodiscard]] const lanes::Machine* lanes() const { return lanes_.get(); }
-
   /// In the middle of that; likewise.
   [[nodiscard]] std::optional<PathRates<I>> at_middle(const Model<I>& model, const Segment& segment,
                                                       const Over& over) const;
+
+  /// The machine for forms_in_lanes.h; only for Interval, else null.
+  [[nodiscard]] const lanes::Machine* lanes() const { return lanes_.get(); }
 
  private:
   template <int N>
