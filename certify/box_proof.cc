@@ -282,6 +282,17 @@ Densities<I> enclose_densities(const ProofModel<I>& problem, const Matrix3<Slope
   return result;
 }
 
+/// Whether the least and the greatest tensions are within their limits all over a box.
+template <class I>
+bool are_within(const Model<I>& model, const std::array<SlopeForm<I>, kCables>& low,
+                const std::array<SlopeForm<I>, kCables>& high) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    if (!certainly_positive(low[i].range - model.tension_lower[i])) return false;
+    if (!certainly_positive(model.tension_upper[i] - high[i].range)) return false;
+  }
+  return true;
+}
+
 /// Of a move in time: what inertia asks of the cables over all of a box, and at its midpoint where that is asked for.
 template <class I>
 struct Inertia {
@@ -290,16 +301,16 @@ struct Inertia {
   /// w0 − w_in.
   [[nodiscard]] static Vector6<I> rest(const Vector6<I>& w0, const Moving<I>& moving) {
     Vector6<I> w;
-    for (int k = 0; k < 6; ++k) w(k) = w0(k) - moving.wrench(k);
+    for (int k = 0; k < 6; ++k) w(k) = w0(k) - moving.load.wrench(k);
     return w;
   }
 
   /// Adds what inertia takes of tensions to what they are at rest: over the box, and as much at the midpoint. Slopes
   /// remain those at rest.
   void add(const ProofModel<I>& problem, const InverseBound<I>& inverse, BoxEnclosure<I>& box) {
-    const auto over_box = problem.moving->may_stop() ? by_law(inverse, over.by_law) : by_wrench(inverse, over.wrench);
+    const std::array<I, kCables> over_box = densities(problem, inverse, over.load);
+    at_rest = {box.density, box.low, box.high};
     for (std::size_t i = 0; i < kCables; ++i) {
-      at_rest[i] = {box.density[i].at_mid, box.low[i].at_mid, box.high[i].at_mid};
       const I tension = box.length[i].range * over_box[i];
       box.density[i].range = box.density[i].range - over_box[i];
       box.low[i].range = box.low[i].range - tension;
@@ -310,6 +321,37 @@ struct Inertia {
     }
   }
 
+  /// After add(), where tensions at rest would do: what they are at the times at which the move is on the box, from
+  /// halves of these, in each of which both the law and the tensions at rest vary less.
+  void tighten(const ProofModel<I>& problem, const InverseBound<I>& inverse, const I& mid, BoxEnclosure<I>& box) const {
+    for (int halvings = 1; halvings <= MovingModel<I>::kMostHalvings; ++halvings) {
+      std::array<std::optional<I>, kCables> low, high;
+      const auto include = [](std::optional<I>& range, const I& part) { range = range ? hull(*range, part) : part; };
+      for (const auto& [here, load] : problem.moving->load_in_parts(over, halvings)) {
+        const std::array<I, kCables> density = densities(problem, inverse, load);
+        const I offset = here - mid;
+        for (std::size_t i = 0; i < kCables; ++i) {
+          const I tension = box.length[i].range * density[i];
+          SlopeForm<I> least = at_rest.low[i], greatest = at_rest.high[i];
+          least.tighten(offset);
+          greatest.tighten(offset);
+          include(low[i], least.range - tension);
+          include(high[i], greatest.range - tension);
+        }
+      }
+      for (std::size_t i = 0; i < kCables; ++i) {
+        const auto narrow = [](SlopeForm<I>& tension, const std::optional<I>& range) {
+          if (!range) return;
+          tension.range = intersect(tension.range, *range);
+          tension.at_mid = intersect(tension.at_mid, tension.range);
+        };
+        narrow(box.low[i], low[i]);
+        narrow(box.high[i], high[i]);
+      }
+      if (are_within(problem.model, box.low, box.high)) return;
+    }
+  }
+
   /// After add(), and after margins were added: what is known of the midpoint by itself.
   void look_at_mid(const ProofModel<I>& problem, const Segment& segment, const I& mid, const InverseBound<I>& inverse,
                    BoxEnclosure<I>& box) {
@@ -317,13 +359,13 @@ struct Inertia {
     at_mid = problem.moving->at(model, segment, mid);
     box.is_slowed_badly = problem.moving->may_stop();
     if (!at_mid) return;
-    const Forms<I, 1> densities = inverse.times(loaded_column(inverse, at_mid->wrench));
+    const Forms<I, 1> densities = inverse.times(loaded_column(inverse, at_mid->load.wrench));
     for (std::size_t i = 0; i < kCables; ++i) {
       const I& density = densities[i][0].at_mid;
       const I tension = box.length[i].at_mid * density;
-      box.density[i].at_mid = at_rest[i][0] - density;
-      box.low[i].at_mid = at_rest[i][1] - tension;
-      box.high[i].at_mid = at_rest[i][2] - tension;
+      box.density[i].at_mid = at_rest.density[i].at_mid - density;
+      box.low[i].at_mid = at_rest.low[i].at_mid - tension;
+      box.high[i].at_mid = at_rest.high[i].at_mid - tension;
     }
     for (auto& margin : box.margins) {
       const auto i = static_cast<std::size_t>(margin.id.cable);
@@ -339,7 +381,7 @@ struct Inertia {
   /// Whether at the midpoint, where it is slowed down, all that is limited is shown to be within its limits.
   [[nodiscard]] bool is_slowed_well(const ProofModel<I>& problem, const InverseBound<I>& inverse,
                                     const BoxEnclosure<I>& box) const {
-    const InertiaByLaw<I>&m = at_mid->by_law, &x = slowed_at_mid->by_law;
+    const InertiaByLaw<I>&m = at_mid->load.by_law, &x = slowed_at_mid->load.by_law;
     const Forms<I, 1> by_acceleration = inverse.times(loaded_column(inverse, m.a));
     const Forms<I, 1> by_square = inverse.times(loaded_column(inverse, m.b));
     for (std::size_t i = 0; i < kCables; ++i) {
@@ -354,12 +396,19 @@ struct Inertia {
   }
 
   Moving<I> over;
-  std::optional<Moving<I>> at_mid{};                ///< only after look_at_mid(), as what follows
-  std::optional<Moving<I>> slowed_at_mid{};         ///< where the move may be slowed down
-  std::array<std::array<I, 3>, kCables> at_rest{};  ///< density, least and greatest tension at the midpoint
+  std::optional<Moving<I>> at_mid{};         ///< only after look_at_mid(), as what follows
+  std::optional<Moving<I>> slowed_at_mid{};  ///< where the move may be slowed down
+  struct AtRest {
+    std::array<SlopeForm<I>, kCables> density, low, high;
+  };
+  AtRest at_rest{};
 
  private:
   /// D^-1 w_in over the box.
+  [[nodiscard]] static std::array<I, kCables> densities(const ProofModel<I>& problem, const InverseBound<I>& inverse,
+                                                        const InertialLoad<I>& load) {
+    return problem.moving->may_stop() ? by_law(inverse, load.by_law) : by_wrench(inverse, load.wrench);
+  }
   [[nodiscard]] static std::array<I, kCables> by_wrench(const InverseBound<I>& inverse, const Vector6<I>& wrench) {
     const Forms<I, 1> densities = inverse.times(loaded_column(inverse, wrench));
     std::array<I, kCables> result;
@@ -526,14 +575,11 @@ constexpr int kDeepestAtRest = 4;
 /// Whether only the midpoint is shown to have its tensions within their limits.
 template <class I>
 bool is_too_wide_at_rest(const Model<I>& model, const BoxEnclosure<I>& box) {
-  bool is_wide = false;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const I &lower = model.tension_lower[i], &upper = model.tension_upper[i];
-    const SlopeForm<I>&low = box.low[i], &high = box.high[i];
-    if (!certainly_positive(low.at_mid - lower) || !certainly_positive(upper - high.at_mid)) return false;
-    is_wide = is_wide || !certainly_positive(low.range - lower) || !certainly_positive(upper - high.range);
+    if (!certainly_positive(box.low[i].at_mid - model.tension_lower[i])) return false;
+    if (!certainly_positive(model.tension_upper[i] - box.high[i].at_mid)) return false;
   }
-  return is_wide;
+  return !are_within(model, box.low, box.high);
 }
 
 /// enclose_box(). Of a move, `mid` may be left out where nothing depends on it: then statements about the midpoint are
@@ -605,6 +651,9 @@ BoxEnclosure<I> enclose(const ProofModel<I>& problem, const Segment& segment, co
     }
     inertia.emplace(*std::move(over));
     inertia->add(problem, inverse, result);
+    if (!are_within(model, result.low, result.high) && are_within(model, inertia->at_rest.low, inertia->at_rest.high)) {
+      inertia->tighten(problem, inverse, s.mid, result);
+    }
   }
   result.regular = true;
   add_tension_margins(model, result);

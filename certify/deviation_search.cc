@@ -78,7 +78,8 @@ DeviationSearch::Place DeviationSearch::place(const DyadicBox& box) const {
   const ProofModel<MpInterval>& model = ladder.multiprecision(rung);
   const auto moving = model.moving->at(model.model, segment_, enclose<MpInterval>(box.mid()));
   for (int k = 0; moving && k < 6; ++k) {
-    result.model.wrench(k) -= (lower_bound(moving->wrench(k)) + upper_bound(moving->wrench(k))) / 2;
+    const MpInterval& inertia = moving->load.wrench(k);
+    result.model.wrench(k) -= (lower_bound(inertia) + upper_bound(inertia)) / 2;
   }
   return result;
 }

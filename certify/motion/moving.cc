@@ -127,6 +127,17 @@ LawRange<I> MovingModel<I>::law_over(const TimeLaw& law, const TimeCover& times)
 }
 
 template <class I>
+auto MovingModel<I>::part_at(const RatesAlong<I>& along, const TimeCover& times) const -> std::optional<Part> {
+  const TimeLaw& law = *along.segment().timing;
+  const I places = law_places<I>(law, times) - I(static_cast<double>(along.segment().index));
+  const I& range = along.range();
+  if (places.upper() < range.lower() || places.lower() > range.upper()) return std::nullopt;
+  const I &begin = places.lower() > range.lower() ? places : range,
+          &end = places.upper() < range.upper() ? places : range;
+  return Part{times, hull(I(begin.lower()), I(end.upper())), law_over(law, times), Speeds::kAny};
+}
+
+template <class I>
 bool MovingModel<I>::are_kept(RatesAlong<I>& along, const TimeCover& times, Limits open, int depth, Halving& halving,
                               Sizes& sizes) const {
   const auto are_halves_kept = [&](Limits limits) {
@@ -134,15 +145,10 @@ bool MovingModel<I>::are_kept(RatesAlong<I>& along, const TimeCover& times, Limi
         halves(times), [&](const TimeCover& half) { return are_kept(along, half, limits, depth + 1, halving, sizes); });
   };
   if (depth < halving.likely) return are_halves_kept(open);
-  const TimeLaw& law = *along.segment().timing;
-  const I places = law_places<I>(law, times) - I(static_cast<double>(along.segment().index));
-  const I& range = along.range();
-  if (places.upper() < range.lower() || places.lower() > range.upper()) return true;  // not at these times
-  const I &begin = places.lower() > range.lower() ? places : range,
-          &end = places.upper() < range.upper() ? places : range;
-  const Part part{times, hull(I(begin.lower()), I(end.upper())), law_over(law, times), Speeds::kAny};
+  const std::optional<Part> part = part_at(along, times);
+  if (!part) return true;
   Sizes found = sizes;
-  const Limits left = narrow(along, part, open, found);
+  const Limits left = narrow(along, *part, open, found);
   for (std::size_t n = 0; n < limits_.size(); ++n) {
     const Limits limit = Limits{1} << n;
     if ((left & limit) != 0 && certainly_nonpositive(I(limits_[n].most - found[n]))) return false;
@@ -180,6 +186,48 @@ bool MovingModel<I>::are_kept_over(RatesAlong<I>& along, const TimeCover& times,
 }
 
 template <class I>
+LawRange<I> MovingModel<I>::at_speeds(const LawRange<I>& at_full_speed, Speeds speeds) const {
+  return speeds == Speeds::kAny && slowing_ ? slowed(at_full_speed, *slowing_) : at_full_speed;
+}
+
+template <class I>
+InertialLoad<I> MovingModel<I>::inertial_load(const PathRates<I>& path, const Rates<I>& rates,
+                                              const LawRange<I>& law) const {
+  InertialLoad<I> result;
+  result.wrench = inertial_wrench(bodies_, path.r_WP, rates);
+  if (slowing_) {
+    const I one(1.0), none(0.0);
+    result.by_law = {inertial_wrench(bodies_, path.r_WP, by_time(path, none, one)),
+                     inertial_wrench(bodies_, path.r_WP, by_time(path, one, none)), law.acceleration, sqr(law.rate)};
+  }
+  return result;
+}
+
+template <class I>
+auto MovingModel<I>::load_in_parts(const Moving<I>& over, int halvings) const
+    -> boost::container::static_vector<LoadInPart, 1 << kMostHalvings> {
+  RatesAlong<I>& along = *over.along;
+  along.look_at_middle();
+  boost::container::static_vector<TimeCover, 1 << kMostHalvings> times{over.part.times};
+  for (int k = 0; k < halvings; ++k) {
+    const auto wholes = times;
+    times.clear();
+    for (const TimeCover& whole : wholes) {
+      for (const TimeCover& half : halves(whole)) times.push_back(half);
+    }
+  }
+  boost::container::static_vector<LoadInPart, 1 << kMostHalvings> result;
+  for (const TimeCover& some : times) {
+    const std::optional<Part> part = part_at(along, some);
+    if (!part) continue;
+    const LawRange<I> law = at_speeds(part->law, part->speeds);
+    const PathRates<I> path = along.path_on(part->here);
+    result.push_back({part->here, inertial_load(path, by_time(path, law.rate, law.acceleration), law)});
+  }
+  return result;
+}
+
+template <class I>
 std::optional<Moving<I>> MovingModel<I>::at(const Model<I>& model, const Segment& segment, const I& place,
                                             Speeds speeds, const KnownMotion<I>* known) const {
   if (segment.timing == nullptr) throw std::logic_error("a segment without a time law");
@@ -188,16 +236,11 @@ std::optional<Moving<I>> MovingModel<I>::at(const Model<I>& model, const Segment
   const PathRates<I>& path = along->path();
   const TimeCover times = time_cover(*segment.timing, on_path(segment, place));
   const LawRange<I> at_full_speed = law_over(*segment.timing, times);
-  const LawRange<I> law = speeds == Speeds::kAny && slowing_ ? slowed(at_full_speed, *slowing_) : at_full_speed;
+  const LawRange<I> law = at_speeds(at_full_speed, speeds);
   std::optional<Moving<I>> result(std::in_place);
   result->r_WP = path.r_WP;
   result->rates = by_time(path, law.rate, law.acceleration);
-  result->wrench = inertial_wrench(bodies_, path.r_WP, result->rates);
-  if (slowing_) {
-    const I one(1.0), none(0.0);
-    result->by_law = {inertial_wrench(bodies_, path.r_WP, by_time(path, none, one)),
-                      inertial_wrench(bodies_, path.r_WP, by_time(path, one, none)), law.acceleration, sqr(law.rate)};
-  }
+  result->load = inertial_load(path, result->rates, law);
   result->part = {times, place, at_full_speed, speeds};
   result->along = std::move(along);
   return result;

@@ -7,7 +7,8 @@
 // one time in the middle and the accelerations around it: a product such as that of ṡ and dL/ds can't see that one of
 // them falls where the other rises, and a move at the limit of a speed would take boxes without number.
 // Where a limit is not shown to be kept, these times are halved, and each half is looked at for itself, and then halves
-// of the box likewise: that takes a small part of what smaller boxes take, of which all else is enclosed anew.
+// of the box likewise: that takes a small part of what smaller boxes take, of which all else is enclosed anew. Tensions
+// likewise take the inertia of parts of these times.
 // Where a move may be slowed down, ṡ is any share of σ', and s̈ what that leaves of σ'' and a change of the share.
 // docs/theory.md, "Moves in time".
 #pragma once
@@ -51,14 +52,20 @@ struct InertiaByLaw {
 template <class I>
 using RateMargins = boost::container::static_vector<RateMargin<I>, 3 * kCables + 4>;
 
+/// w_in over a set of times.
+template <class I>
+struct InertialLoad {
+  Vector6<I> wrench;       ///< about P_m, axes of W [N, N m]
+  InertiaByLaw<I> by_law;  ///< the same; only where the move may be slowed down
+};
+
 /// Which speeds are meant: those of the law, or all at which the move may be run.
 enum class Speeds { kOfLaw, kAny };
 
 /// At a place, or over a part of a segment.
 template <class I>
 struct Moving {
-  Vector6<I> wrench;       ///< w_in about P_m, axes of W [N, N m]
-  InertiaByLaw<I> by_law;  ///< the same; only where the move may be slowed down
+  InertialLoad<I> load;
   Matrix3<I> r_WP;
   Rates<I> rates;
 
@@ -93,6 +100,15 @@ class MovingModel {
   /// All over a part of the segment, of which the motion is known, at any speed at which the move may be run; likewise.
   [[nodiscard]] std::optional<Moving<I>> over(const Model<I>& model, const Segment& segment, const I& range,
                                               const KnownMotion<I>& known) const;
+  /// w_in at some of the times of over(), at which the move is in a part of the path.
+  struct LoadInPart {
+    I here;
+    InertialLoad<I> load;
+  };
+  static constexpr int kMostHalvings = 2;
+  /// Of all times of over(), halved so often. @param halvings  at most kMostHalvings
+  [[nodiscard]] boost::container::static_vector<LoadInPart, 1 << kMostHalvings> load_in_parts(const Moving<I>& over,
+                                                                                              int halvings) const;
   /// Sets `margins` and `winch_speed`.
   void bound_rates(Moving<I>& moving) const;
   /// After that, bounds the margins of over() that are not positive once more, from parts of the times.
@@ -123,6 +139,12 @@ class MovingModel {
   using Limits = std::uint32_t;                                       ///< a set of limits_
   using Sizes = boost::container::static_vector<I, 2 * kCables + 4>;  ///< one a limit
 
+  [[nodiscard]] InertialLoad<I> inertial_load(const PathRates<I>& path, const Rates<I>& rates,
+                                              const LawRange<I>& law) const;
+  /// The law as it is run at these speeds.
+  [[nodiscard]] LawRange<I> at_speeds(const LawRange<I>& at_full_speed, Speeds speeds) const;
+  /// Some times at which the move is in along.range(), at any speed; nothing where it is not there at these times.
+  [[nodiscard]] std::optional<Part> part_at(const RatesAlong<I>& along, const TimeCover& times) const;
   /// σ' and σ'' at these times, or what they are at that pace.
   [[nodiscard]] LawRange<I> law_over(const TimeLaw& law, const TimeCover& times) const;
   /// The middle of a part's times, and where the move is then: nothing where that is not certain to be in the part.

@@ -53,6 +53,16 @@ class RatesAlong {
     middle_ = rates_->at_middle(*model_, *segment_, over_);
   }
 
+  /// At each place of `here`, which is in the range; the pose is that over all of the range.
+  [[nodiscard]] PathRates<I> path_on(const I& here) const {
+    PathRates<I> result = over_.path;
+    if (!middle_) return result;
+    const I off = here - over_.mid;
+    narrow(off, {middle_->p1, middle_->p2}, over_.path.p3, 3, result.p1, result.p2);
+    narrow(off, {middle_->w, middle_->w1}, over_.path.w2, 3, result.w, result.w1);
+    return result;
+  }
+
   /// |f ṡ| or |f s̈ + g ṡ²|, of a place in `here`, which is in the range, and under a law there. Not of a power.
   [[nodiscard]] I magnitude(const RateId& id, const I& here, const LawRange<I>& law) {
     const Thing thing = thing_of(id);
@@ -185,16 +195,21 @@ class RatesAlong {
     return result;
   }
 
+  /// f and g, so far from the middle, by Taylor's theorem. @param components  how many they have
+  static void narrow(const I& off, const Derivatives& at_mid, const Vector3<I>& h, int components, Vector3<I>& f,
+                     Vector3<I>& g) {
+    const I half = I(0.5) * off;
+    for (int k = 0; k < components; ++k) {
+      f(k) = intersect(f(k), at_mid.f(k) + off * (at_mid.g(k) + half * h(k)));
+      g(k) = intersect(g(k), at_mid.g(k) + off * h(k));
+    }
+  }
   /// f and g at each place of `here`.
   [[nodiscard]] Derivatives on(Thing thing, const I& here) {
     Derivatives result = derivatives(thing);
     if (!middle_) return result;
     const auto& [at_mid, h] = around_middle(thing);
-    const I off = here - over_.mid, half = I(0.5) * off;
-    for (int k = 0; k < (is_winch(thing) ? 1 : 3); ++k) {
-      result.f(k) = intersect(result.f(k), at_mid.f(k) + off * (at_mid.g(k) + half * h(k)));
-      result.g(k) = intersect(result.g(k), at_mid.g(k) + off * h(k));
-    }
+    narrow(here - over_.mid, at_mid, h, is_winch(thing) ? 1 : 3, result.f, result.g);
     return result;
   }
   [[nodiscard]] static Vector3<I> velocity(Thing thing, const Derivatives& along, const LawRange<I>& law) {

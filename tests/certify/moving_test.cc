@@ -11,6 +11,7 @@
 #include <string>
 #include <tuple>
 
+#include "certify/box_proof.h"
 #include "certify/prover.h"
 #include "tests/support/implied_moves.h"
 #include "tests/support/moves.h"
@@ -401,6 +402,51 @@ TEST(Moving, MachinesThatDeviateNeedMorePowerThanTheirWinchesHave) {
   auto count = refute_by_deviations(LimitOf::kPower, kTrials, operands);
   EXPECT_GE(count["of a power"], kTrials / 6);
   EXPECT_LE(count["open"], kTrials / 6);
+}
+
+TEST(Moving, InertiaOverPartsOfTimesIsThatOfEachTime) {
+  Operands operands(53);
+  int in_several_parts = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    MovingMachine machine(operands);
+    if (trial % 4 == 0) machine.problem.time->stopping_time_s = "0.5";
+    const Path path = some_move(operands, 0.1);
+    const Segment segment = path.segment(static_cast<std::size_t>(operands.pick(static_cast<int>(path.segments()))));
+    const double from = 0x1p-8 * static_cast<double>(operands.pick(200)), to = from + 0x1p-8 * 50;
+    const int halvings = trial % (MovingModel<Interval>::kMostHalvings + 1);
+    std::vector<std::pair<Interval, Vector6<Interval>>> parts;
+    ASSERT_TRUE(run_upward([&] {
+      const ProofModel<Interval> model = make_proof_model(machine.problem);
+      const EnclosedBox<Interval> box{Interval(from, to), Interval((from + to) / 2)};
+      const double radius = (to - from) / 2;
+      const auto motion = undisturbed_motion(model, segment, box, Interval(-radius, radius));
+      const auto over = model.moving->over(model.model, segment, box.range, {motion, box.mid});
+      ASSERT_TRUE(over);
+      for (const auto& [here, load] : model.moving->load_in_parts(*over, halvings)) {
+        parts.emplace_back(here, load.wrench);
+      }
+    }));
+    in_several_parts += parts.size() > 1 ? 1 : 0;
+    const PrecisionScope precision(oracle::kMovingBits);
+    const oracle::Move move = oracle_of(path);
+    for (int n = 0; n < 10; ++n) {
+      const double place = operands.uniform(from, to);
+      const BigFloat t = time_at(*path.timing, BigFloat(static_cast<double>(segment.index)) + BigFloat(place));
+      const oracle::Big6 inertia = move.inertia(machine.particles(), oracle::big(machine.problem.load.point_m), t);
+      bool is_anywhere = false;
+      for (const auto& [here, wrench] : parts) {
+        if (place < here.lower() || place > here.upper()) continue;
+        is_anywhere = true;
+        for (std::size_t k = 0; k < 6; ++k) {
+          const double x = inertia[k].to_double(MPFR_RNDN), rounding = 1e-12 * (1 + std::abs(x));
+          EXPECT_LE(wrench(static_cast<int>(k)).lower() - rounding, x) << trial;
+          EXPECT_GE(wrench(static_cast<int>(k)).upper() + rounding, x) << trial;
+        }
+      }
+      EXPECT_TRUE(is_anywhere) << trial;
+    }
+  }
+  EXPECT_GT(in_several_parts, 50);
 }
 
 TEST(Moving, ATurnOfThePlatformChangesItsInertiaByNoMoreThanIsSaid) {
