@@ -296,7 +296,7 @@ std::vector<std::int64_t> rounded_shares(std::span<const double> shares) {
 /// std::gcd of two numbers that are not negative. Those up to Direction::kCoarse are asked for again and again.
 int common_divisor(int a, int b) {
   constexpr std::size_t kSize = Direction::kCoarse + 1;
-  constexpr auto kTable = [] {
+  static constexpr auto kTable = [] {
     std::array<std::array<std::int8_t, kSize>, kSize> table{};
     for (std::size_t i = 0; i < kSize; ++i) {
       for (std::size_t j = 0; j < kSize; ++j) table[i][j] = static_cast<std::int8_t>(std::gcd(i, j));
@@ -316,7 +316,7 @@ Direction rounded_direction(const Point& along, bool in_platform, int largest) {
   Direction result{in_platform, {}};
   int divisor = 0;
   for (int k = 0; k < 3; ++k) {
-    const int x = static_cast<int>(scaled(k) < 0 ? scaled(k) - 0.5 : scaled(k) + 0.5);
+    const int x = static_cast<int>(scaled(k) + std::copysign(0.5, scaled(k)));
     result.u[static_cast<std::size_t>(k)] = x;
     divisor = common_divisor(divisor, std::abs(x));
   }
