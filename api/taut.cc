@@ -229,14 +229,27 @@ Interpolation outer(taut::Interpolation law) {
   return Interpolation::kStraight;
 }
 
+taut::Waypoint inner(const Waypoint& waypoint, taut::Interpolation law, std::size_t k) {
+  const auto& [x, half_turns] = waypoint;
+  const auto fail = [&](const char* field, std::size_t got, std::size_t expected) {
+    const std::string where = fmt::format("waypoints[{}].{}", k, field);
+    throw taut::InputError(fmt::format("{}: got {} numbers, expected {}", where, got, expected), {"", 0, where});
+  };
+  if (!has_poses(law)) {
+    return taut::ParameterPoint{x, half_turns.empty() ? std::vector<int>(x.size(), 0) : half_turns};
+  }
+  if (x.size() != number_count(law, 0)) fail("x", x.size(), number_count(law, 0));
+  if (!half_turns.empty()) fail("half_turns", half_turns.size(), 0);
+  return waypoint_of(law, x, {});
+}
+
 taut::Path inner(const Path& path) {
   taut::Path result;
   result.interpolation = inner(path.interpolation);
   result.times = path.times;
   if (path.timing) result.timing = {path.timing->step_s, path.timing->controls};
   for (const Waypoint& waypoint : path.waypoints) {
-    taut::Waypoint& copy = result.waypoints.emplace_back(taut::Waypoint{waypoint.x, waypoint.half_turns});
-    if (copy.half_turns.empty() && !has_poses(result.interpolation)) copy.half_turns.assign(copy.x.size(), 0);
+    result.waypoints.push_back(inner(waypoint, result.interpolation, result.waypoints.size()));
   }
   return result;
 }
@@ -735,7 +748,9 @@ Path Certificate::path() const {
   const taut::Path& path = content_->stated.path;
   Path result;
   result.interpolation = outer(path.interpolation);
-  for (const taut::Waypoint& waypoint : path.waypoints) result.waypoints.push_back({waypoint.x, waypoint.half_turns});
+  for (const taut::Waypoint& waypoint : path.waypoints) {
+    result.waypoints.push_back({numbers(waypoint), half_turns(waypoint)});
+  }
   result.times = path.times;
   if (path.timing) result.timing = {path.timing->step_s, path.timing->controls};
   return result;

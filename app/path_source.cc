@@ -26,13 +26,12 @@ namespace {
 void require_poses(const Path& path, const std::string& file) {
   if (!has_poses(path.interpolation)) return;
   for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
-    const std::vector<double>& x = path.waypoints[k].x;
-    const double norm = std::hypot(std::hypot(x[3], x[4]), std::hypot(x[5], x[6]));
+    const double norm = quaternion_length(path.waypoints[k].pose());
     if (!(std::abs(norm - 1) <= kNormTolerance)) {
       throw InputError(fmt::format("{}: path.waypoints[{}].quaternion: got one of length {:.6g}, expected 1 within {}",
                                    file, k, norm, kNormTolerance));
     }
-    if (!std::all_of(x.begin() + 7, x.end(), [](double length) { return length > 0; })) {
+    if (path.interpolation == Interpolation::kCableLengths && !have_lengths(path.waypoints[k])) {
       throw InputError(fmt::format("{}: path.waypoints[{}].lengths: got one that is not above 0", file, k));
     }
   }
@@ -177,11 +176,13 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
   const std::size_t parameters = problem_.space.parameters.size();
   const std::size_t normals = parameters * problem_.space.constraints.size();
   const bool fits = std::ranges::all_of(certificate_->waypoints, [&](const Waypoint& waypoint) {
-    return has_poses(law_) || (waypoint.x.size() == parameters && waypoint.normals.size() == normals);
+    if (has_poses(law_)) return true;
+    const ParameterPoint& point = waypoint.parameters();
+    return point.x.size() == parameters && point.normals.size() == normals;
   });
-  for (std::size_t k = 0; k < certificate_->waypoints.size(); ++k) {
-    const std::vector<int>& turns = certificate_->waypoints[k].half_turns;
-    for (std::size_t j = 0; fits && j < turns.size(); ++j) {
+  for (std::size_t k = 0; fits && !has_poses(law_) && k < certificate_->waypoints.size(); ++k) {
+    const std::vector<int>& turns = certificate_->waypoints[k].parameters().half_turns;
+    for (std::size_t j = 0; j < turns.size(); ++j) {
       const Parameter& parameter = problem_.space.parameters[j];
       if (turns[j] == 0 || parameter.kind == ParameterKind::kPeriodic) continue;
       throw InputError(

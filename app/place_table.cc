@@ -24,10 +24,7 @@ PlaceTable::Node node_at(const PoseSampler& sampler, const Segment& segment, dou
   node.pose.q.normalize();
   node.length = cable_lengths(sampler.model(), node.pose);
   if (segment.law != Interpolation::kCableLengths) return node;
-  constexpr std::size_t kFirstLength = 7;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    node.length[i] = (1 - s) * segment.control[0]->x[kFirstLength + i] + s * segment.control[1]->x[kFirstLength + i];
-  }
+  node.length = lengths_at(segment, s);
   return node;
 }
 

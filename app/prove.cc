@@ -27,35 +27,39 @@ constexpr long kMostBits = 1 << 20;
   throw InputError(fmt::format("{}: {}", field, message), {"", 0, field});
 }
 
-void require_fit(const Waypoint& waypoint, Interpolation law, const SpaceText& space, const std::string& where) {
-  const std::size_t numbers = has_poses(law) ? pose_numbers(law) : space.parameters.size();
-  if (waypoint.x.size() != numbers) {
-    fail(where + ".x", fmt::format("got {} numbers, expected {}", waypoint.x.size(), numbers));
+void require_finite(const std::vector<double>& x, std::size_t count, const std::string& where) {
+  if (x.size() != count) fail(where + ".x", fmt::format("got {} numbers, expected {}", x.size(), count));
+  for (std::size_t j = 0; j < count; ++j) {
+    if (std::isfinite(x[j])) continue;
+    fail(fmt::format("{}.x[{}]", where, j), fmt::format("got {}, expected a finite number", x[j]));
   }
-  for (std::size_t j = 0; j < numbers; ++j) {
-    if (!std::isfinite(waypoint.x[j])) {
-      fail(fmt::format("{}.x[{}]", where, j), fmt::format("got {}, expected a finite number", waypoint.x[j]));
-    }
+}
+
+void require_half_turns(const std::vector<int>& half_turns, const SpaceText& space, const std::string& where) {
+  if (half_turns.size() != space.parameters.size()) {
+    fail(where + ".half_turns", fmt::format("got {} numbers, expected {}", half_turns.size(), space.parameters.size()));
   }
-  if (waypoint.half_turns.size() != (has_poses(law) ? 0 : numbers)) {
-    fail(where + ".half_turns",
-         fmt::format("got {} numbers, expected {}", waypoint.half_turns.size(), has_poses(law) ? 0 : numbers));
-  }
-  for (std::size_t j = 0; j < waypoint.half_turns.size(); ++j) {
+  for (std::size_t j = 0; j < half_turns.size(); ++j) {
     const int most = space.parameters[j].kind == ParameterKind::kPeriodic ? kMostHalfTurns : 0;
-    if (std::abs(waypoint.half_turns[j]) > most) {
-      fail(fmt::format("{}.half_turns[{}]", where, j),
-           fmt::format("got {}, expected {}", waypoint.half_turns[j],
-                       most == 0 ? "0, of a parameter that is not periodic" : fmt::format("{} at most", most)));
-    }
+    if (std::abs(half_turns[j]) <= most) continue;
+    fail(fmt::format("{}.half_turns[{}]", where, j),
+         fmt::format("got {}, expected {}", half_turns[j],
+                     most == 0 ? "0, of a parameter that is not periodic" : fmt::format("{} at most", most)));
   }
-  if (!has_poses(law)) return;
+}
+
+void require_fit(const Waypoint& waypoint, Interpolation law, const SpaceText& space, const std::string& where) {
+  require_finite(numbers(waypoint), number_count(law, space.parameters.size()), where);
+  if (!has_poses(law)) {
+    require_half_turns(waypoint.parameters().half_turns, space, where);
+    return;
+  }
   constexpr double kMostOff = 1e-2;
-  const double norm = std::hypot(std::hypot(waypoint.x[3], waypoint.x[4]), std::hypot(waypoint.x[5], waypoint.x[6]));
+  const double norm = quaternion_length(waypoint.pose());
   if (!(std::abs(norm - 1) <= kMostOff)) {
     fail(where + ".x", fmt::format("got a quaternion of length {:.6g}, expected 1 within {}", norm, kMostOff));
   }
-  if (!std::all_of(waypoint.x.begin() + 7, waypoint.x.end(), [](double length) { return length > 0; })) {
+  if (law == Interpolation::kCableLengths && !have_lengths(waypoint)) {
     fail(where + ".x", "got a length that is not above 0");
   }
 }
@@ -93,22 +97,18 @@ void refine_references(Path& path, const Model<double>& model) {
   constexpr double kNearEnough = 1e-6;  // of the platform's size: proofs bear a hundred times as much
   std::optional<Eigen::Quaterniond> before;
   for (Waypoint& waypoint : path.waypoints) {
-    std::vector<double>& x = waypoint.x;
-    const Eigen::Quaterniond given(x[6], x[3], x[4], x[5]);
-    const RigidPose pose{Vector3<double>(x[0], x[1], x[2]), given.normalized()};
-    std::array<double, kCables> lengths{};
-    std::copy_n(x.begin() + 7, kCables, lengths.begin());
+    const std::array<double, kCables> lengths = waypoint.lengths_m();
+    const RigidPose pose = rigid_pose(waypoint.pose());
     double off = 0;
     const std::array<double, kCables> has = cable_lengths(model, pose);
     for (std::size_t i = 0; i < kCables; ++i) off = std::max(off, std::abs(has[i] - lengths[i]));
     if (off > kNearEnough * model.characteristic_length) {
       if (auto found = pose_of_lengths(model, lengths, pose)) {
         if (before && found->q.dot(*before) < 0) found->q.coeffs() = -found->q.coeffs();  // the shorter way
-        const Eigen::Quaterniond& q = found->q;
-        std::ranges::copy(std::array{found->p(0), found->p(1), found->p(2), q.x(), q.y(), q.z(), q.w()}, x.begin());
+        waypoint = LengthsPoint{pose_numbers(*found), lengths};
       }
     }
-    before = Eigen::Quaterniond(x[6], x[3], x[4], x[5]);
+    before = rigid_pose(waypoint.pose()).q;
   }
 }
 
@@ -161,7 +161,7 @@ Certificate prove_waypoints(const Problem& problem, Path path, long max_bits, co
   if (has_poses(law)) audited.space = coordinate_space();
   if (!has_poses(law) && !problem.space.constraints.empty()) {
     const PoseSampler sampler(problem);
-    for (Waypoint& waypoint : path.waypoints) waypoint.normals = sampler.constraints()->normals(waypoint);
+    for (Waypoint& waypoint : path.waypoints) waypoint.parameters().normals = sampler.constraints()->normals(waypoint);
   }
   if (law == Interpolation::kCableLengths) refine_references(path, PoseSampler(problem).model());
   require_on_constraints(path, audited);

@@ -137,7 +137,7 @@ class TableReader {
            "got cable lengths for which no pose was found that follows from that of the row before, expected a motion "
            "without jumps, clear of singular poses");
     }
-    poses_.emplace_back(waypoint.x.begin(), waypoint.x.begin() + kQuaternionNames.size());
+    poses_.emplace_back(waypoint.pose().begin(), waypoint.pose().end());
   }
 
   /// The space of the fit: the rows' own parameters or angles; for quaternions and lengths three angles that are clear

@@ -57,7 +57,8 @@ double allocated_bytes() {
 
 Coordinates first_waypoint(const Problem& problem) {
   const Waypoint waypoint = query_waypoints(problem).front();
-  return Eigen::Map<const Eigen::VectorXd>(waypoint.x.data(), static_cast<Eigen::Index>(waypoint.x.size()));
+  return Eigen::Map<const Eigen::VectorXd>(waypoint.parameters().x.data(),
+                                           static_cast<Eigen::Index>(waypoint.parameters().x.size()));
 }
 
 Row grow(const Manifold& manifold, const Coordinates& start, const AtlasOptions& options, int runs) {

@@ -40,7 +40,8 @@ Path straight_path(const Problem& problem, int segments) {
   for (int k = 0; k <= segments; ++k) {
     Waypoint at = query.front();
     const double s = static_cast<double>(k) / segments;
-    for (std::size_t j = 0; j < at.x.size(); ++j) at.x[j] += s * (query.back().x[j] - at.x[j]);
+    for (std::size_t j = 0; j < at.parameters().x.size(); ++j)
+      at.parameters().x[j] += s * (query.back().parameters().x[j] - at.parameters().x[j]);
     path.waypoints.push_back(at);
   }
   return path;

@@ -84,12 +84,7 @@ TolerancesText all_tolerances() {
 
 /// The pose, and the lengths there.
 Waypoint on_lengths(const Model<double>& model, const RigidPose& pose) {
-  Waypoint result;
-  for (int k = 0; k < 3; ++k) result.x.push_back(pose.p(k));
-  for (int k = 0; k < 4; ++k) result.x.push_back(pose.q.coeffs()(k));
-  for (const double length : cable_lengths(model, pose)) result.x.push_back(length);
-  result.half_turns.assign(result.x.size(), 0);
-  return result;
+  return LengthsPoint{pose_numbers(pose), cable_lengths(model, pose)};
 }
 
 Row measure(const std::string& name, Problem problem, Kind kind, std::array<double, 2> low,

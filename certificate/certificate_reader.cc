@@ -89,23 +89,28 @@ std::vector<double> binary64s(const JsonCursor& list, std::size_t size) {
 
 // ---- The path -------------------------------------------------------------------------------------------------------
 
+PoseNumbers pose_from_json(const JsonCursor& entry) {
+  PoseNumbers pose{};
+  const std::vector<double> position = binary64s(entry.at("position"), 3);
+  const std::vector<double> quaternion = binary64s(entry.at("quaternion"), 4);
+  std::ranges::copy(quaternion, std::ranges::copy(position, pose.begin()).out);
+  return pose;
+}
+
 Waypoint waypoint_from_json(Interpolation law, const JsonCursor& entry) {
-  Waypoint waypoint;
   if (has_poses(law)) {
-    const auto append = [&](const JsonCursor& list, std::size_t size) {
-      for (const double value : binary64s(list, size)) waypoint.x.push_back(value);
-    };
-    append(entry.at("position"), 3);
-    append(entry.at("quaternion"), 4);
-    if (law == Interpolation::kCableLengths) append(entry.at("lengths"), kCables);
-    return waypoint;
+    const PoseNumbers pose = pose_from_json(entry);
+    if (law == Interpolation::kGeodesic) return PosePoint{pose};
+    LengthsPoint point{pose};
+    std::ranges::copy(binary64s(entry.at("lengths"), kCables), point.length_m.begin());
+    return point;
   }
-  waypoint.x = binary64s(entry.at("x"));
-  for (const JsonCursor& turns : entry.at("half_turns").elements(waypoint.x.size())) {
-    waypoint.half_turns.push_back(static_cast<int>(turns.integer(-kMostHalfTurns, kMostHalfTurns)));
+  ParameterPoint point{binary64s(entry.at("x")), {}};
+  for (const JsonCursor& turns : entry.at("half_turns").elements(point.x.size())) {
+    point.half_turns.push_back(static_cast<int>(turns.integer(-kMostHalfTurns, kMostHalfTurns)));
   }
-  if (entry.contains("normals")) waypoint.normals = binary64s(entry.at("normals"));
-  return waypoint;
+  if (entry.contains("normals")) point.normals = binary64s(entry.at("normals"));
+  return point;
 }
 
 PoseTube tube_from_json(const JsonCursor& tube) { return {binary64(tube.at("position")), binary64(tube.at("turn"))}; }
@@ -130,9 +135,7 @@ double number_from_dyadic(const JsonCursor& field) {
 InnerPose inner_pose_from_json(const JsonCursor& entry) {
   InnerPose inner;
   inner.s = number_from_dyadic(entry.at("s"));
-  const std::vector<double> position = binary64s(entry.at("position"), 3);
-  const std::vector<double> quaternion = binary64s(entry.at("quaternion"), 4);
-  std::ranges::copy(quaternion, std::ranges::copy(position, inner.x.begin()).out);
+  inner.x = pose_from_json(entry);
   inner.tube = tube_from_json(entry.at("tube"));
   return inner;
 }
@@ -166,11 +169,11 @@ Path read_path_in(const json& path, const SpaceText& space) {
   Path result = taut::read_path(path);
   if (has_poses(result.interpolation)) return result;
   for (std::size_t k = 0; k < result.waypoints.size(); ++k) {
-    const Waypoint& waypoint = result.waypoints[k];
-    if (waypoint.x.size() != parameters || waypoint.normals.size() != normals) {
+    const ParameterPoint& point = result.waypoints[k].parameters();
+    if (point.x.size() != parameters || point.normals.size() != normals) {
       throw FieldError(
           fmt::format("path.waypoints[{}]", k),
-          fmt::format("{} values of x and {} of normals", waypoint.x.size(), waypoint.normals.size()),
+          fmt::format("{} values of x and {} of normals", point.x.size(), point.normals.size()),
           fmt::format("expected {} values of x and of half_turns, and {} of normals", parameters, normals));
     }
   }

@@ -144,29 +144,28 @@ CertificateWriter::Write digest_of(Sha256& sha256) {
 }  // namespace
 
 std::string waypoint_text(Interpolation law, const Waypoint& waypoint) {
-  const std::span<const double> x = waypoint.x;
   std::string text;
   if (has_poses(law)) {
     text = "{";
     if (law == Interpolation::kCableLengths) {
       text += "\"lengths\":";
-      append_hex_floats(text, x.subspan(7));
+      append_hex_floats(text, waypoint.lengths_m());
       text += ',';
     }
+    const std::span<const double> pose = waypoint.pose();
     text += "\"position\":";
-    append_hex_floats(text, x.first(3));
+    append_hex_floats(text, pose.first(3));
     text += ",\"quaternion\":";
-    append_hex_floats(text, x.subspan(3, 4));
+    append_hex_floats(text, pose.subspan(3));
     return text + "}";
   }
+  const auto& [x, half_turns, normals] = waypoint.parameters();
   text = "{\"half_turns\":[";
-  for (std::size_t j = 0; j < waypoint.half_turns.size(); ++j) {
-    text += (j == 0 ? "" : ",") + std::to_string(waypoint.half_turns[j]);
-  }
+  for (std::size_t j = 0; j < half_turns.size(); ++j) text += (j == 0 ? "" : ",") + std::to_string(half_turns[j]);
   text += "],";
-  if (!waypoint.normals.empty()) {
+  if (!normals.empty()) {
     text += "\"normals\":";
-    append_hex_floats(text, waypoint.normals);
+    append_hex_floats(text, normals);
     text += ',';
   }
   text += "\"x\":";

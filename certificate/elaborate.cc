@@ -58,19 +58,22 @@ checker::Law to_kernel(Interpolation law) {
 /// Which segment of to_kernel(segment) it is.
 std::size_t index_in_kernel(const Segment& segment) { return segment.timing == nullptr ? 0 : segment.index; }
 
+checker::Waypoint to_kernel(const Waypoint& waypoint) {
+  const auto* const point = std::get_if<ParameterPoint>(&waypoint.point());
+  if (point == nullptr) return {numbers(waypoint), {}, {}};
+  return {point->x, point->half_turns, point->normals};
+}
+
 /// A path that is this one segment; of a move, with a waypoint (and tubes) in place of each earlier segment, as the law
 /// knows the segment by its number.
 checker::Path to_kernel(const Segment& segment, bool has_constraints) {
   checker::Path path;
   path.law = to_kernel(segment.law);
   if (segment.timing != nullptr) {
-    const Waypoint& first = *segment.control[0];
     path.timing = checker::TimeLaw{segment.timing->step_s, segment.timing->controls};
-    path.waypoints.assign(segment.index, {first.x, first.half_turns, first.normals});
+    path.waypoints.assign(segment.index, to_kernel(*segment.control[0]));
   }
-  for (const Waypoint* control : segment.controls()) {
-    path.waypoints.push_back({control->x, control->half_turns, control->normals});
-  }
+  for (const Waypoint* control : segment.controls()) path.waypoints.push_back(to_kernel(*control));
   const std::size_t k = index_in_kernel(segment);
   if (has_constraints) path.tubes.assign(k + 1, segment.tube);
   if (segment.law == Interpolation::kCableLengths) {

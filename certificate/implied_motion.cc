@@ -161,7 +161,7 @@ class Way {
 
  private:
   static checker::InnerPose inner_pose(const mpq_class& tau, const RigidPose& pose) {
-    return {tau, {pose.p(0), pose.p(1), pose.p(2), pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()}, {}};
+    return {tau, pose_numbers(pose), {}};
   }
 
   std::optional<RigidPose> pose_at(const mpq_class& tau, const RigidPose& start) const {

@@ -322,7 +322,7 @@ struct Inertia {
   }
 
   /// After add(), where tensions at rest would do: what they are at the times at which the move is on the box, from
-  /// halves of these, in each of which both the law and the tensions at rest vary less.
+  /// parts of these, in each of which both the law and the tensions at rest vary less.
   void tighten(const ProofModel<I>& problem, const InverseBound<I>& inverse, const I& mid, BoxEnclosure<I>& box) const {
     for (int halvings = 1; halvings <= MovingModel<I>::kMostHalvings; ++halvings) {
       std::array<std::optional<I>, kCables> low, high;

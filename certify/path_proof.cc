@@ -239,11 +239,8 @@ std::vector<Waypoint> query_waypoints(const Problem& problem) {
   std::optional<ConstraintFunctions> constraints;
   if (!problem.space.constraints.empty()) constraints.emplace(problem);
   for (const auto& typed : problem.query) {
-    Waypoint waypoint;
-    waypoint.x = nearest_binary64s(typed);
-    waypoint.half_turns.assign(waypoint.x.size(), 0);
-    if (constraints) waypoint.normals = constraints->normals(waypoint);
-    waypoints.push_back(std::move(waypoint));
+    Waypoint& waypoint = waypoints.emplace_back(nearest_binary64s(typed), std::vector<int>(typed.size(), 0));
+    if (constraints) waypoint.parameters().normals = constraints->normals(waypoint);
   }
   return waypoints;
 }

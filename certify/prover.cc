@@ -101,19 +101,18 @@ bool Prover::is_admissible(const Segment& segment) const {
   return std::ranges::all_of(segment.controls(),
                              [&](const Waypoint* waypoint) {
                                if (!has_poses(segment.law)) return certainly_in_ranges(*waypoint);
-                               return waypoint->x.size() == pose_numbers(segment.law) &&
-                                      std::ranges::all_of(waypoint->x, is_finite);
+                               return std::ranges::all_of(numbers(*waypoint), is_finite);
                              }) &&
          has_joined_pieces(segment);
 }
 
 bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
   const auto& ranges = model().motion.ranges;
-  if (waypoint.x.size() != ranges.size() || waypoint.half_turns.size() != ranges.size()) return false;
+  const auto& [x, half_turns, normals] = waypoint.parameters();
+  if (x.size() != ranges.size() || half_turns.size() != ranges.size()) return false;
   for (std::size_t j = 0; j < ranges.size(); ++j) {
-    const double x = waypoint.x[j];
-    if (!std::isfinite(x) || !(ranges[j][0] <= x && x <= ranges[j][1])) return false;
-    if (waypoint.half_turns[j] != 0 && problem_.space.parameters[j].kind != ParameterKind::kPeriodic) return false;
+    if (!std::isfinite(x[j]) || !(ranges[j][0] <= x[j] && x[j] <= ranges[j][1])) return false;
+    if (half_turns[j] != 0 && problem_.space.parameters[j].kind != ParameterKind::kPeriodic) return false;
   }
   return true;
 }
@@ -122,8 +121,8 @@ std::string Prover::range_violation(const Segment& segment) const {
   if (has_poses(segment.law)) return "";
   const auto& ranges = model().motion.ranges;
   for (const Waypoint* waypoint : segment.controls()) {
-    for (std::size_t j = 0; j < std::min(ranges.size(), waypoint->x.size()); ++j) {
-      const double x = waypoint->x[j];
+    for (std::size_t j = 0; j < std::min(ranges.size(), waypoint->parameters().x.size()); ++j) {
+      const double x = waypoint->parameters().x[j];
       if (ranges[j][0] <= x && x <= ranges[j][1]) continue;
       const Parameter& parameter = problem_.space.parameters[j];
       if (parameter.kind != ParameterKind::kRange) continue;

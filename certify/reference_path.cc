@@ -31,7 +31,7 @@ class ReferenceFinder {
 
   struct Point {
     double s = 0;
-    std::array<double, 7> x{};  ///< of the reference
+    PoseNumbers x{};  ///< of the reference
     RigidPose pose{Vector3<double>::Zero(), Eigen::Quaterniond::Identity()};
   };
   struct Piece {
@@ -74,32 +74,16 @@ class ReferenceFinder {
   [[nodiscard]] PoseTube tube(double size) const { return {unit_ * size, size}; }
 
  private:
-  [[nodiscard]] std::array<double, kCables> lengths(double s) const {
-    constexpr std::size_t kFirstLength = 7;
-    std::array<double, kCables> result{};
-    for (std::size_t i = 0; i < kCables; ++i) {
-      result[i] = (1 - s) * segment_.control[0]->x[kFirstLength + i] + s * segment_.control[1]->x[kFirstLength + i];
-    }
-    return result;
-  }
-
-  [[nodiscard]] double quaternion_length(std::size_t k) const {
-    const std::vector<double>& x = segment_.control[k]->x;
-    return std::hypot(std::hypot(x[3], x[4]), std::hypot(x[5], x[6]));
-  }
+  [[nodiscard]] std::array<double, kCables> lengths(double s) const { return lengths_at(segment_, s); }
 
   /// Its pose is the one next to the reference that has the lengths, where Newton's method finds that.
   [[nodiscard]] Point at_waypoint(std::size_t k) const {
     Point result;
     result.s = static_cast<double>(k);
-    std::copy_n(segment_.control[k]->x.begin(), result.x.size(), result.x.begin());
-    result.pose = pose_at(result.x);
+    result.x = segment_.control[k]->pose();
+    result.pose = rigid_pose(result.x);
     result.pose = pose_of_lengths(approx_, lengths(result.s), result.pose).value_or(result.pose);
     return result;
-  }
-
-  static RigidPose pose_at(const std::array<double, 7>& x) {
-    return {{x[0], x[1], x[2]}, Eigen::Quaterniond(x[6], x[3], x[4], x[5]).normalized()};
   }
 
   /// The pose that the lengths at s lead to from `near`.
@@ -109,9 +93,10 @@ class ReferenceFinder {
     Eigen::Quaterniond q = pose->q;
     const auto& x = near.x;
     // Of the waypoints' length and sign, so that the piece to either is near a rotation at constant rate.
-    q.coeffs() *= (1 - s) * quaternion_length(0) + s * quaternion_length(1);
+    const auto length_at = [&](std::size_t k) { return quaternion_length(segment_.control[k]->pose()); };
+    q.coeffs() *= (1 - s) * length_at(0) + s * length_at(1);
     if (q.x() * x[3] + q.y() * x[4] + q.z() * x[5] + q.w() * x[6] < 0) q.coeffs() = -q.coeffs();
-    return Point{s, {pose->p(0), pose->p(1), pose->p(2), q.x(), q.y(), q.z(), q.w()}, *pose};
+    return Point{s, pose_numbers({pose->p, q}), *pose};
   }
 
   /// In units of a tube of size 1.
@@ -123,12 +108,12 @@ class ReferenceFinder {
 
   std::optional<Piece> proved(const Point& first, const Point& last) const {
     const double s = 0.5 * (first.s + last.s);
-    std::array<double, 7> x{};
+    PoseNumbers x{};
     for (std::size_t k = 0; k < x.size(); ++k) x[k] = 0.5 * (first.x[k] + last.x[k]);
-    const RigidPose chord = pose_at(x);
+    const RigidPose chord = rigid_pose(x);
     const auto pose = pose_of_lengths(approx_, lengths(s), chord);
     if (!pose) return std::nullopt;
-    const double away = std::max(distance(pose_at(first.x), first.pose), distance(pose_at(last.x), last.pose));
+    const double away = std::max(distance(rigid_pose(first.x), first.pose), distance(rigid_pose(last.x), last.pose));
     const double bend = distance(chord, *pose);
     const double size = kRoom * std::max(0.0, bend - away) + kRoomAtEnds * away;
     if (!std::isfinite(size)) return std::nullopt;

@@ -113,7 +113,7 @@ std::optional<RowDistance> RowDistances::at(const Rational& time_s, const RowPos
     const Interval s = from_rational<Interval>(rational_text(u));
     const Segment segment = path_.segment(k);
     std::vector<Interval> parameters;
-    for (std::size_t j = 0; j < path_.waypoints.front().x.size(); ++j) {
+    for (std::size_t j = 0; j < path_.waypoints.front().parameters().x.size(); ++j) {
       parameters.push_back(coordinate_polynomial<Interval>(segment, j).at(s));
     }
     const EnclosedPose move = enclosures_->at(parameters);

@@ -71,7 +71,7 @@ int likely_first_depth(const Segment& segment) {
   if (segment.law != Interpolation::kStraight) return 0;
   constexpr double kUsual = 0.5;  // in the parameters [rad, m]
   constexpr double kGreatest = 1e3;
-  const Waypoint &a = *segment.control[0], &b = *segment.control[1];
+  const ParameterPoint &a = segment.control[0]->parameters(), &b = segment.control[1]->parameters();
   double square = 0;
   for (std::size_t j = 0; j < a.x.size(); ++j) {
     const double step = b.x[j] - a.x[j] + std::numbers::pi * (b.half_turns[j] - a.half_turns[j]);

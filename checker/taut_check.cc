@@ -72,7 +72,7 @@ ExpectedPath read_expected_path(const std::string& text, const std::string& name
   path.certificate_sha256 = named_certificate(text);
   for (PathRow row; file.next(row);) {
     const taut::Waypoint& waypoint = maker.next(row, file.start());
-    path.waypoints.push_back({waypoint.x, waypoint.half_turns, row.line});
+    path.waypoints.push_back({numbers(waypoint), half_turns(waypoint), row.line});
   }
   return path;
 }

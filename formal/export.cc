@@ -241,10 +241,11 @@ std::string law_text(Interpolation law) {
 
 std::string waypoint_text(const Waypoint& waypoint) {
   std::vector<std::string> coordinates;
-  for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
-    const int half_turns = waypoint.half_turns.empty() ? 0 : waypoint.half_turns[j];
-    coordinates.push_back(fmt::format("({}, {}%Z)", hex(waypoint.x[j]), integer(half_turns)));
-  }
+  const std::vector<double> x = numbers(waypoint);
+  std::vector<int> turns = half_turns(waypoint);
+  turns.resize(x.size());
+  for (std::size_t j = 0; j < x.size(); ++j)
+    coordinates.push_back(fmt::format("({}, {}%Z)", hex(x[j]), integer(turns[j])));
   return fmt::format("[{}]", fmt::join(coordinates, "; "));
 }
 

@@ -6,18 +6,12 @@
 namespace taut::formal {
 namespace {
 
-std::array<double, 7> pose_of(const Waypoint& waypoint) {
-  std::array<double, 7> pose{};
-  std::copy_n(waypoint.x.begin(), pose.size(), pose.begin());
-  return pose;
-}
-
 /// The lengths at s, between two waypoints.
 std::array<Rational, 6> lengths_at(const Waypoint& begin, const Waypoint& end, double s) {
   std::array<Rational, 6> lengths;
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    const Rational first(begin.x[7 + i]);
-    lengths[i] = first + Rational(s) * (Rational(end.x[7 + i]) - first);
+    const Rational first(begin.lengths_m()[i]);
+    lengths[i] = first + Rational(s) * (Rational(end.lengths_m()[i]) - first);
   }
   return lengths;
 }
@@ -29,11 +23,11 @@ std::vector<HeldPose> held_poses(const Path& path) {
   for (std::size_t k = 0; k < path.segments(); ++k) {
     const Waypoint& begin = path.waypoints[k];
     const Waypoint& end = path.waypoints[k + 1];
-    poses.push_back({pose_of(begin), lengths_at(begin, end, 0), path.pose_tubes[k], k, 0});
+    poses.push_back({begin.pose(), lengths_at(begin, end, 0), path.pose_tubes[k], k, 0});
     for (const InnerPose& inner : path.inner_poses[k]) {
       poses.push_back({inner.x, lengths_at(begin, end, inner.s), inner.tube, k, inner.s});
     }
-    if (k + 1 == path.segments()) poses.push_back({pose_of(end), lengths_at(begin, end, 1), {}, k, 1});
+    if (k + 1 == path.segments()) poses.push_back({end.pose(), lengths_at(begin, end, 1), {}, k, 1});
   }
   return poses;
 }

@@ -183,7 +183,7 @@ class Geodesic {
   explicit Geodesic(const Segment& segment) {
     std::array<std::array<Rational, 4>, 2> q;
     for (std::size_t end = 0; end < 2; ++end) {
-      const std::vector<double>& x = segment.control[end]->x;
+      const PoseNumbers& x = segment.control[end]->pose();
       const int exponent = largest_exponent(std::span(x).subspan(3, 4));
       for (std::size_t i = 0; i < 4; ++i) q[end][i] = Rational(std::ldexp(x[3 + i], -exponent));
       for (std::size_t i = 0; i < 3; ++i) position_[end][i] = Interval(x[i]);

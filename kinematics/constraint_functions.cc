@@ -61,7 +61,7 @@ std::vector<double> ConstraintFunctions::normals(const Waypoint& waypoint) const
   Vector lambda(parameters_);
   for (int j = 0; j < parameters_; ++j) {
     const auto i = static_cast<std::size_t>(j);
-    lambda[j] = waypoint.x[i] + ScalarTraits<double>::pi() * waypoint.half_turns[i];
+    lambda[j] = waypoint.parameters().x[i] + ScalarTraits<double>::pi() * waypoint.parameters().half_turns[i];
   }
   std::vector<double> result(static_cast<std::size_t>(parameters_ * count_));
   Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(result.data(), parameters_,

@@ -29,7 +29,7 @@ class ConstrainedCurve {
 
   /// @pre each control point has a finite entry of N for each constraint
   ConstrainedCurve(const Segment& segment, std::size_t count, const S& range) : count_(count) {
-    for (std::size_t j = 0; j < segment.control[0]->x.size(); ++j) {
+    for (std::size_t j = 0; j < segment.control[0]->parameters().x.size(); ++j) {
       line_.push_back(with_derivatives<N>(coordinate_polynomial<S>(segment, j), range));
       for (std::size_t i = 0; i < count; ++i) {
         normals_.push_back(with_derivatives<N>(normal_polynomial<S>(segment, j * count + i), range));
@@ -145,14 +145,13 @@ template <class S>
 template <int N, class S, class Divide>
 [[nodiscard]] PathRatesOf<S, N> rates_of_lengths(const Model<S>& model, const Vector3<S>& p_WP, const Matrix3<S>& r_WP,
                                                  const Segment& segment, const S& range, const Divide& divide) {
-  constexpr std::size_t kFirstLength = 7;
   struct Cable {
     S length, rate;
     Vector3<S> x, d, d1;
   };
   std::array<Cable, kCables> cables;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const Polynomial<S> line = coordinate_polynomial<S>(segment, kFirstLength + i);
+    const Polynomial<S> line = length_polynomial<S>(segment, i);
     Cable& cable = cables[i];
     cable.length = line.at(range);
     cable.rate = line.slope(range);

@@ -4,7 +4,7 @@
 namespace taut {
 
 std::vector<double> curve_parameters(const Segment& segment, double s) {
-  std::vector<double> result(segment.control[0]->x.size());
+  std::vector<double> result(segment.control[0]->parameters().x.size());
   for (std::size_t j = 0; j < result.size(); ++j) result[j] = coordinate_polynomial<double>(segment, j).at(s);
   return result;
 }

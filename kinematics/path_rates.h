@@ -115,7 +115,7 @@ class PathRatesModel {
   [[nodiscard]] PathRatesOf<S, N> along_curve(const Segment& segment, const S& range,
                                               const Matrix3<S>* known = nullptr) const {
     boost::container::small_vector<Taylor<S, N>, kFewParameters> parameters;
-    for (std::size_t j = 0; j < segment.control[0]->x.size(); ++j) {
+    for (std::size_t j = 0; j < segment.control[0]->parameters().x.size(); ++j) {
       parameters.push_back(with_derivatives<N>(coordinate_polynomial<S>(segment, j), range));
     }
     return of(std::span<const Taylor<S, N>>(parameters.data(), parameters.size()), known);

@@ -178,6 +178,14 @@ std::optional<RigidPose> pose_of_lengths(const Model<double>& model, const std::
   return std::nullopt;
 }
 
+PoseNumbers pose_numbers(const RigidPose& pose) {
+  return {pose.p(0), pose.p(1), pose.p(2), pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()};
+}
+
+RigidPose rigid_pose(const PoseNumbers& x) {
+  return {{x[0], x[1], x[2]}, Eigen::Quaterniond(x[6], x[3], x[4], x[5]).normalized()};
+}
+
 RigidPose pose_between(const Segment& segment, double s) {
   const ReferencePiece piece = reference_piece(segment, s);
   const double t = (s - piece.from) / (piece.to - piece.from);

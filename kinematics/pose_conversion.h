@@ -20,6 +20,11 @@ struct RigidPose {
   Eigen::Quaterniond q;
 };
 
+/// As waypoints have it.
+[[nodiscard]] PoseNumbers pose_numbers(const RigidPose& pose);
+/// With the numbers of a waypoint; q may have any length there.
+[[nodiscard]] RigidPose rigid_pose(const PoseNumbers& x);
+
 /// R(q) is the pose's rotation; of angles that grow continuously, q is continuous.
 [[nodiscard]] RigidPose rigid_pose(const Angles<double>& angles, const Pose<double>& pose);
 

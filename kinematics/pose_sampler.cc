@@ -32,12 +32,7 @@ RigidPose PoseSampler::rigid_pose(const Segment& segment, double s) const {
   }
   const RigidPose reference = pose_between(segment, s);
   if (segment.law != Interpolation::kCableLengths) return reference;
-  constexpr std::size_t kFirstLength = 7;
-  std::array<double, kCables> wanted;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    wanted[i] = (1 - s) * segment.control[0]->x[kFirstLength + i] + s * segment.control[1]->x[kFirstLength + i];
-  }
-  return pose_of_lengths(model_, wanted, reference).value_or(reference);
+  return pose_of_lengths(model_, lengths_at(segment, s), reference).value_or(reference);
 }
 
 double PoseSampler::distance_to_constraints(const Segment& segment, bool at_end) const {

@@ -41,8 +41,7 @@ PathRates<double> RatesSampler::on_constraints(const Segment& segment, double s)
 }
 
 PathRates<double> RatesSampler::along_geodesic(const Segment& segment, double s) const {
-  const auto& from = segment.control[0]->x;
-  const auto& to = segment.control[1]->x;
+  const PoseNumbers &from = segment.control[0]->pose(), &to = segment.control[1]->pose();
   const RigidPose now = pose_between(segment, s);
   const Eigen::Quaterniond begin = pose_between(segment, 0).q, end = pose_between(segment, 1).q;
   PathRates<double> result;

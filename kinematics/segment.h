@@ -30,24 +30,70 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "problem/scalar.h"
+#include "problem/text.h"
 
 namespace taut {
 
-struct Waypoint {
-  /// One a parameter [m, rad], finite. Geodesic: px, py, pz [m], qx, qy, qz, qw. Cable lengths: these, then L_1…L_6
-  /// [m].
-  std::vector<double> x;
+/// λ_k, where the law runs through parameters.
+struct ParameterPoint {
+  std::vector<double> x;        ///< one a parameter [m, rad], finite
   std::vector<int> half_turns;  ///< one a parameter; non-zero only where it is periodic
   /// N by rows, one row a parameter and one column a constraint; empty in a space without constraints.
   std::vector<double> normals = {};
+  bool operator==(const ParameterPoint&) const = default;
+};
+
+/// px, py, pz [m], qx, qy, qz, qw.
+using PoseNumbers = std::array<double, 7>;
+
+/// Of a geodesic.
+struct PosePoint {
+  PoseNumbers pose{};
+  bool operator==(const PosePoint&) const = default;
+};
+
+/// Of straight cable lengths; the pose has about these.
+struct LengthsPoint {
+  PoseNumbers pose{};
+  std::array<double, kCables> length_m{};
+  bool operator==(const LengthsPoint&) const = default;
+};
+
+/// What a waypoint is depends on the law: an access to another kind throws std::bad_variant_access.
+class Waypoint {
+ public:
+  Waypoint() = default;
+  Waypoint(std::vector<double> x, std::vector<int> half_turns, std::vector<double> normals = {})
+      : point_(ParameterPoint{std::move(x), std::move(half_turns), std::move(normals)}) {}
+  explicit(false) Waypoint(ParameterPoint point) : point_(std::move(point)) {}
+  explicit(false) Waypoint(const PosePoint& point) : point_(point) {}
+  explicit(false) Waypoint(const LengthsPoint& point) : point_(point) {}
+
+  [[nodiscard]] ParameterPoint& parameters() { return std::get<ParameterPoint>(point_); }
+  [[nodiscard]] const ParameterPoint& parameters() const { return std::get<ParameterPoint>(point_); }
+  /// Of either law with poses.
+  [[nodiscard]] const PoseNumbers& pose() const {
+    const auto* const with_lengths = std::get_if<LengthsPoint>(&point_);
+    return with_lengths != nullptr ? with_lengths->pose : std::get<PosePoint>(point_).pose;
+  }
+  [[nodiscard]] const std::array<double, kCables>& lengths_m() const { return std::get<LengthsPoint>(point_).length_m; }
+
+  [[nodiscard]] const auto& point() const { return point_; }
   bool operator==(const Waypoint&) const = default;
+
+ private:
+  std::variant<ParameterPoint, PosePoint, LengthsPoint> point_;
 };
 
 enum class Interpolation { kStraight, kCubicBSpline, kGeodesic, kCableLengths };
@@ -60,8 +106,43 @@ enum class Interpolation { kStraight, kCubicBSpline, kGeodesic, kCableLengths };
 [[nodiscard]] constexpr bool has_poses(Interpolation law) {
   return law == Interpolation::kGeodesic || law == Interpolation::kCableLengths;
 }
-/// Size of Waypoint::x under a law with poses.
-[[nodiscard]] constexpr std::size_t pose_numbers(Interpolation law) { return law == Interpolation::kGeodesic ? 7 : 13; }
+/// The numbers of a waypoint in a row, as files have them: parameters x; or a pose, and lengths behind it.
+[[nodiscard]] inline std::vector<double> numbers(const Waypoint& waypoint) {
+  if (const auto* at = std::get_if<ParameterPoint>(&waypoint.point())) return at->x;
+  std::vector<double> result(waypoint.pose().begin(), waypoint.pose().end());
+  if (const auto* at = std::get_if<LengthsPoint>(&waypoint.point())) {
+    result.insert(result.end(), at->length_m.begin(), at->length_m.end());
+  }
+  return result;
+}
+/// Those of parameters; none of poses.
+[[nodiscard]] inline std::vector<int> half_turns(const Waypoint& waypoint) {
+  const auto* const point = std::get_if<ParameterPoint>(&waypoint.point());
+  return point != nullptr ? point->half_turns : std::vector<int>();
+}
+/// Of the quaternion.
+[[nodiscard]] inline double quaternion_length(const PoseNumbers& pose) {
+  return std::hypot(std::hypot(pose[3], pose[4]), std::hypot(pose[5], pose[6]));
+}
+/// Whether all lengths are above 0. @pre the law of cable lengths
+[[nodiscard]] inline bool have_lengths(const Waypoint& waypoint) {
+  return std::ranges::all_of(waypoint.lengths_m(), [](double length) { return length > 0; });
+}
+/// How many these are under a law. @param parameters  of the space
+[[nodiscard]] constexpr std::size_t number_count(Interpolation law, std::size_t parameters) {
+  if (!has_poses(law)) return parameters;
+  return std::tuple_size_v<PoseNumbers> + (law == Interpolation::kCableLengths ? kCables : 0);
+}
+/// The waypoint of these numbers. @pre number_count() of a law with poses @param half_turns  of parameters
+[[nodiscard]] inline Waypoint waypoint_of(Interpolation law, std::vector<double> numbers, std::vector<int> half_turns) {
+  if (!has_poses(law)) return ParameterPoint{std::move(numbers), std::move(half_turns)};
+  LengthsPoint point;
+  if (numbers.size() != number_count(law, 0)) throw std::logic_error("a waypoint of other numbers");
+  std::copy_n(numbers.begin(), point.pose.size(), point.pose.begin());
+  if (law == Interpolation::kGeodesic) return PosePoint{point.pose};
+  std::copy(numbers.begin() + static_cast<std::ptrdiff_t>(point.pose.size()), numbers.end(), point.length_m.begin());
+  return point;
+}
 
 /// r_p [m] and r_u [1].
 struct PoseTube {
@@ -72,9 +153,9 @@ struct PoseTube {
 
 /// A point that the reference passes between two waypoints; its number s is exact.
 struct InnerPose {
-  double s = 0;               ///< in (0, 1)
-  std::array<double, 7> x{};  ///< px, py, pz [m], qx, qy, qz, qw
-  PoseTube tube;              ///< of the piece that begins here
+  double s = 0;     ///< in (0, 1)
+  PoseNumbers x{};  ///< the pose there
+  PoseTube tube;    ///< of the piece that begins here
   bool operator==(const InnerPose&) const = default;
 };
 
@@ -143,7 +224,7 @@ struct Path {
 struct ReferencePiece {
   double from = 0;
   double to = 1;
-  std::span<const double> first;  ///< px, py, pz, qx, qy, qz, qw at `from`
+  std::span<const double> first;  ///< the pose at `from`
   std::span<const double> last;   ///< at `to`
   PoseTube tube;
 };
@@ -153,7 +234,7 @@ struct ReferencePiece {
   const auto& inner = segment.inner_poses;
   const auto next =
       std::upper_bound(inner.begin(), inner.end(), s, [](double x, const InnerPose& y) { return x < y.s; });
-  ReferencePiece piece{0, 1, segment.control[0]->x, segment.control[1]->x, segment.pose_tube};
+  ReferencePiece piece{0, 1, segment.control[0]->pose(), segment.control[1]->pose(), segment.pose_tube};
   if (next != inner.end()) {
     piece.to = next->s;
     piece.last = next->x;
@@ -185,28 +266,50 @@ template <class S>
   return {{q1 + (d12 - d01) / six, half * (d01 + d12), half * (d12 - d01), (d23 - d12 - (d12 - d01)) / six}, true};
 }
 
-/// ℓ_j; under a law with poses, number j of the waypoints mixed linearly.
+/// p_k of a geodesic.
+template <class S>
+[[nodiscard]] Polynomial<S> position_polynomial(const Segment& segment, std::size_t k) {
+  const S from(segment.control[0]->pose()[k]), to(segment.control[1]->pose()[k]);
+  return {{from, to - from, S(0.0), S(0.0)}, false};
+}
+
+/// L_i [m]. @pre the law of cable lengths
+template <class S>
+[[nodiscard]] Polynomial<S> length_polynomial(const Segment& segment, std::size_t cable) {
+  const S from(segment.control[0]->lengths_m()[cable]), to(segment.control[1]->lengths_m()[cable]);
+  return {{from, to - from, S(0.0), S(0.0)}, false};
+}
+
+/// L(s), in floating point; likewise.
+[[nodiscard]] inline std::array<double, kCables> lengths_at(const Segment& segment, double s) {
+  const auto &from = segment.control[0]->lengths_m(), &to = segment.control[1]->lengths_m();
+  std::array<double, kCables> result{};
+  for (std::size_t i = 0; i < kCables; ++i) result[i] = (1 - s) * from[i] + s * to[i];
+  return result;
+}
+
+/// ℓ_j. @pre a law through parameters
 template <class S>
 [[nodiscard]] Polynomial<S> coordinate_polynomial(const Segment& segment, std::size_t j) {
-  const auto& q = segment.control;
-  if (has_poses(segment.law)) return {{S(q[0]->x[j]), S(q[1]->x[j]) - S(q[0]->x[j]), S(0.0), S(0.0)}, false};
+  using Point = ParameterPoint;
+  const auto at = [&](std::size_t k) -> const Point& { return segment.control[k]->parameters(); };
   const auto turns = [](int n) { return S(static_cast<double>(n)) * ScalarTraits<S>::pi(); };
-  const auto value = [&](const Waypoint& w) {
+  const auto value = [&](const Point& w) {
     const S x(w.x[j]);
     return w.half_turns[j] == 0 ? x : x + turns(w.half_turns[j]);
   };
-  const auto difference = [&](const Waypoint& a, const Waypoint& b) {
+  const auto difference = [&](const Point& a, const Point& b) {
     const S x = S(b.x[j]) - S(a.x[j]);
     return a.half_turns[j] == b.half_turns[j] ? x : x + turns(b.half_turns[j] - a.half_turns[j]);
   };
-  if (segment.law == Interpolation::kStraight) return {{value(*q[0]), difference(*q[0], *q[1]), S(0.0), S(0.0)}, false};
-  return bspline_polynomial(value(*q[1]), difference(*q[0], *q[1]), difference(*q[1], *q[2]), difference(*q[2], *q[3]));
+  if (segment.law == Interpolation::kStraight) return {{value(at(0)), difference(at(0), at(1)), S(0.0), S(0.0)}, false};
+  return bspline_polynomial(value(at(1)), difference(at(0), at(1)), difference(at(1), at(2)), difference(at(2), at(3)));
 }
 
 /// Entry `index` of N, as stored.
 template <class S>
 [[nodiscard]] Polynomial<S> normal_polynomial(const Segment& segment, std::size_t index) {
-  const auto value = [&](std::size_t i) { return S(segment.control[i]->normals[index]); };
+  const auto value = [&](std::size_t i) { return S(segment.control[i]->parameters().normals[index]); };
   if (segment.law == Interpolation::kStraight) return {{value(0), value(1) - value(0), S(0.0), S(0.0)}, false};
   return bspline_polynomial<S>(value(1), value(1) - value(0), value(2) - value(1), value(3) - value(2));
 }

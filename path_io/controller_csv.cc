@@ -76,11 +76,11 @@ class PathWalk {
     constexpr double kQuarterTurn = 1.5707963267948966;
     double most = 0;
     for (const Waypoint* control : segment.controls()) {
-      for (std::size_t j = 0; j < control->x.size(); ++j) {
+      const ParameterPoint &here = control->parameters(), &first = segment.control[0]->parameters();
+      for (std::size_t j = 0; j < here.x.size(); ++j) {
         if (problem_.space.parameters[j].kind != ParameterKind::kPeriodic) continue;
-        const Waypoint& first = *segment.control[0];
-        const double halves = 2.0 * (control->half_turns[j] - first.half_turns[j]);
-        most = std::max(most, std::abs((control->x[j] - first.x[j]) / kQuarterTurn + halves));
+        const double halves = 2.0 * (here.half_turns[j] - first.half_turns[j]);
+        most = std::max(most, std::abs((here.x[j] - first.x[j]) / kQuarterTurn + halves));
       }
     }
     return static_cast<std::size_t>(std::min(1 + most, 2.0 * kMostRows));
@@ -106,9 +106,7 @@ class PathWalk {
       return {pose, cable_lengths(model, pose)};
     }
     ControllerRow row;
-    for (std::size_t i = 0; i < kCables; ++i) {
-      row.lengths[i] = (1 - s) * segment.control[0]->x[7 + i] + s * segment.control[1]->x[7 + i];
-    }
+    row.lengths = lengths_at(segment, s);
     const auto pose = pose_of_lengths(model, row.lengths, last.value_or(pose_between(segment, 0)));
     if (!pose) throw std::runtime_error("controller.csv: no pose was found for the cable lengths of a proved path");
     row.pose = *pose;

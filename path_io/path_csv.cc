@@ -33,10 +33,11 @@ std::string PathCsv::row(std::size_t number, const Waypoint& waypoint, std::stri
   const auto out = std::back_inserter(text);
   if (has_poses(law_)) {
     if (has_times_) fmt::format_to(out, "{},", time);
-    fmt::format_to(out, "{}\n", fmt::join(waypoint.x, ","));  // shortest decimals that read back
+    fmt::format_to(out, "{}\n", fmt::join(numbers(waypoint), ","));  // shortest decimals that read back
     return text;
   }
-  fmt::format_to(out, "{},{},{}", number, fmt::join(waypoint.x, ","), fmt::join(waypoint.half_turns, ","));
+  const ParameterPoint& point = waypoint.parameters();
+  fmt::format_to(out, "{},{},{}", number, fmt::join(point.x, ","), fmt::join(point.half_turns, ","));
   if (has_times_) fmt::format_to(out, ",{}", time);
   const Pose<double> pose = sampler_.pose(waypoint);
   const std::size_t angles = pose_names(problem_.space.angles.kind).size() - 3;

@@ -115,10 +115,9 @@ void WaypointMaker::find_reference(const PathRow& row, const std::vector<double>
 
 const Waypoint& WaypointMaker::next(const PathRow& row, const std::vector<double>& start) {
   if (!is_converted_ && header_.form != PathForm::kCableLengths) {  // the law's own coordinates
-    waypoint_.x = row.x;
-    waypoint_.half_turns = has_poses(law_) ? std::vector<int>() : row.half_turns;
+    waypoint_ = waypoint_of(law_, row.x, row.half_turns);
     if (!has_poses(law_) && sampler_.constraints() && header_.form == PathForm::kParameters) {
-      waypoint_.normals = sampler_.constraints()->normals(waypoint_);
+      waypoint_.parameters().normals = sampler_.constraints()->normals(waypoint_);
     }
     return waypoint_;
   }
@@ -132,24 +131,23 @@ const Waypoint& WaypointMaker::next(const PathRow& row, const std::vector<double
   const RigidPose& pose = *pose_;
   if (law_ == Interpolation::kStraight) {
     angles_ = tilt_and_torsion(pose.q, angles_);
-    waypoint_.x = {pose.p(0), pose.p(1), pose.p(2), angles_->x[0], angles_->x[1], angles_->x[2]};
-    waypoint_.half_turns = {0, 0, 0, angles_->half_turns[0], angles_->half_turns[1], angles_->half_turns[2]};
+    const auto& [x, half_turns] = *angles_;
+    waypoint_ = Waypoint({pose.p(0), pose.p(1), pose.p(2), x[0], x[1], x[2]},
+                         {0, 0, 0, half_turns[0], half_turns[1], half_turns[2]});
     return waypoint_;
   }
-  waypoint_.x = {pose.p(0), pose.p(1), pose.p(2), pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()};
-  if (law_ == Interpolation::kCableLengths) {
-    const std::array<double, kCables> lengths = cable_lengths(sampler_.model(), pose);
-    const bool given = header_.form == PathForm::kCableLengths;
-    for (std::size_t i = 0; i < kCables; ++i) {
-      const double length = given ? row.x[i] : lengths[i];
-      if (!(length > 0)) {
-        throw InputError(fmt::format("{}:{}: got a pose in which cable {} has the length 0, expected lengths above 0",
-                                     file_, row.line, i + 1),
-                         {file_, row.line});
-      }
-      waypoint_.x.push_back(length);
-    }
+  const PosePoint point{pose_numbers(pose)};
+  waypoint_ = point;
+  if (law_ != Interpolation::kCableLengths) return waypoint_;
+  std::array<double, kCables> lengths = cable_lengths(sampler_.model(), pose);
+  if (header_.form == PathForm::kCableLengths) std::copy_n(row.x.begin(), kCables, lengths.begin());
+  for (std::size_t i = 0; i < kCables; ++i) {
+    if (lengths[i] > 0) continue;
+    throw InputError(fmt::format("{}:{}: got a pose in which cable {} has the length 0, expected lengths above 0",
+                                 file_, row.line, i + 1),
+                     {file_, row.line});
   }
+  waypoint_ = LengthsPoint{point.pose, lengths};
   return waypoint_;
 }
 

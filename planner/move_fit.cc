@@ -173,12 +173,11 @@ class Fitter {
     result.interpolation = Interpolation::kCubicBSpline;
     TimeLaw law{Rational(duration_ / fit.pieces).convert_to<double>(), {}};
     for (std::size_t i = 0; i < fit.pieces + 3; ++i) {
-      Waypoint& waypoint = result.waypoints.emplace_back();
-      waypoint.half_turns.assign(parameters_, 0);
-      waypoint.x = rows_.front().parameters;
+      std::vector<double> x = rows_.front().parameters;
       for (std::size_t j = 0; j < parameters_; ++j) {
-        waypoint.x[j] += fit.values(value_of(i, fit.pieces), static_cast<Eigen::Index>(j));
+        x[j] += fit.values(value_of(i, fit.pieces), static_cast<Eigen::Index>(j));
       }
+      result.waypoints.emplace_back(std::move(x), std::vector<int>(parameters_, 0));
       law.controls.push_back(static_cast<double>(i) - 1);  // σ(t) = t/h
     }
     result.timing = std::move(law);

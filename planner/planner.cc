@@ -33,22 +33,23 @@ namespace {
 Coordinates to_coordinates(const std::vector<double>& x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<int>(x.size()));
 }
-Coordinates to_coordinates(const Waypoint& waypoint) { return to_coordinates(waypoint.x); }
+Coordinates to_coordinates(const Waypoint& waypoint) { return to_coordinates(waypoint.parameters().x); }
 
 Waypoint to_waypoint(const Coordinates& q, const PoseSampler& sampler) {
   Waypoint waypoint{std::vector<double>(q.data(), q.data() + q.size()),
                     std::vector<int>(static_cast<std::size_t>(q.size()), 0)};
-  if (sampler.constraints()) waypoint.normals = sampler.constraints()->normals(waypoint);
+  if (sampler.constraints()) waypoint.parameters().normals = sampler.constraints()->normals(waypoint);
   return waypoint;
 }
 
 /// The same pose in the image `image`, exactly. Normals stay, because constraints repeat with a turn and mention no
 /// angle of a flip.
 Waypoint apply(const Image& image, const std::optional<std::array<int, 2>>& flip, Waypoint waypoint) {
-  for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
+  auto& [x, half_turns, normals] = waypoint.parameters();
+  for (std::size_t j = 0; j < x.size(); ++j) {
     const bool negated = image.flipped && flip && static_cast<std::size_t>((*flip)[1]) == j;
-    if (negated) waypoint.x[j] = 0.0 - waypoint.x[j];
-    waypoint.half_turns[j] += image.half_turns[j];
+    if (negated) x[j] = 0.0 - x[j];
+    half_turns[j] += image.half_turns[j];
   }
   return waypoint;
 }
@@ -92,10 +93,11 @@ std::vector<Coordinates> to_coordinates(const std::vector<Waypoint>& waypoints) 
 
 /// The point halfway between a and b in the parameters, moved back onto the constraints if there are any.
 Waypoint halfway(const PoseSampler& sampler, const Waypoint& a, const Waypoint& b) {
-  Waypoint middle = a;
-  for (std::size_t j = 0; j < a.x.size(); ++j) {
-    const double turned = std::numbers::pi * (b.half_turns[j] - a.half_turns[j]);
-    middle.x[j] = 0.5 * (a.x[j] + b.x[j] + turned);
+  const ParameterPoint &from = a.parameters(), &to = b.parameters();
+  ParameterPoint middle = from;
+  for (std::size_t j = 0; j < from.x.size(); ++j) {
+    const double turned = std::numbers::pi * (to.half_turns[j] - from.half_turns[j]);
+    middle.x[j] = 0.5 * (from.x[j] + to.x[j] + turned);
   }
   if (!sampler.constraints()) return middle;
   // Half turns of a shift the constraints by nothing but rounding.
@@ -180,8 +182,7 @@ class Planner::Edges {
   /// The proof of an edge at rest, if one was made and succeeded; else null.
   [[nodiscard]] const SegmentProof* find(const Segment& segment) const {
     if (segment.law != Interpolation::kStraight || segment.timing != nullptr) return nullptr;
-    const Waypoint& a = *segment.control[0];
-    const Waypoint& b = *segment.control[1];
+    const ParameterPoint &a = segment.control[0]->parameters(), &b = segment.control[1]->parameters();
     const auto shifted = [](int half_turns) { return half_turns != 0; };
     if (std::ranges::any_of(a.half_turns, shifted) || std::ranges::any_of(b.half_turns, shifted)) return nullptr;
     const auto it = proofs_.find({a.x, b.x});
@@ -195,7 +196,7 @@ class Planner::Edges {
 
  private:
   bool proved(const Waypoint& a, const Waypoint& b, const std::stop_token& stop) {
-    const auto [it, is_new] = proofs_.try_emplace({a.x, b.x});
+    const auto [it, is_new] = proofs_.try_emplace({a.parameters().x, b.parameters().x});
     if (is_new) {
       const auto start = Clock::now();
       it->second = prover_->prove(a, b, 0, stop, ProofAim::kProve);

@@ -16,8 +16,9 @@ using Key = std::vector<double>;
 Key key_of(const Segment& segment) {
   Key key;
   for (const Waypoint* waypoint : segment.controls()) {
-    key.insert(key.end(), waypoint->x.begin(), waypoint->x.end());
-    key.insert(key.end(), waypoint->half_turns.begin(), waypoint->half_turns.end());
+    const auto& [x, half_turns, normals] = waypoint->parameters();
+    key.insert(key.end(), x.begin(), x.end());
+    key.insert(key.end(), half_turns.begin(), half_turns.end());
   }
   return key;
 }
@@ -57,7 +58,8 @@ class Smoother {
     path_.tubes.clear();
     for (std::size_t k = 0; k < path_.segments(); ++k) {
       const Segment segment = path_.segment(k);
-      if (!segment.control[0]->normals.empty()) path_.tubes.push_back(problem_.prover.suitable_tube(segment));
+      if (!segment.control[0]->parameters().normals.empty())
+        path_.tubes.push_back(problem_.prover.suitable_tube(segment));
       if (proofs_.try_emplace(key_of(segment)).second) fresh.push_back(k);
     }
     judged_ += static_cast<int>(fresh.size());

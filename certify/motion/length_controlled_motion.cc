@@ -260,7 +260,7 @@ typename MotionEnclosure<I>::Status ask(const Segment& segment, const I& range, 
   const auto is_size = [](double x) { return x > 0 && std::isfinite(x); };
   if (!is_size(reference->tube.position) || !is_size(reference->tube.turn)) return Status::kUnproved;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const auto line = coordinate_polynomial<I>(segment, kPoseNumbers + i);
+    const auto line = length_polynomial<I>(segment, i);
     question.lengths[i] = {line.at(mid), line.slope(range), line.at(range)};
     if (!certainly_positive(question.lengths[i].range)) return Status::kUnproved;
   }

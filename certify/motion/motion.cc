@@ -49,7 +49,8 @@ SlopeForm<I> over_box(const Polynomial<I>& x, const I& range, const I& mid) {
 template <class I>
 Parameters<I> line_over_box(const Segment& segment, const I& range, const I& mid, const I& offset) {
   Parameters<I> parameters;
-  for (std::size_t j = 0; j < segment.control[0]->x.size(); ++j) {
+  const std::size_t count = segment.control[0]->parameters().x.size();
+  for (std::size_t j = 0; j < count; ++j) {
     parameters.push_back(over_box(coordinate_polynomial<I>(segment, j), range, mid));
     if (segment.law != Interpolation::kStraight) parameters.back().tighten(offset);
   }
@@ -146,8 +147,9 @@ class ConstraintSystem {
 /// anything else.
 bool has_normals(const Segment& segment, std::size_t count) {
   return std::ranges::all_of(segment.controls(), [&](const Waypoint* waypoint) {
-    return waypoint->normals.size() == waypoint->x.size() * count &&
-           std::ranges::all_of(waypoint->normals, [](double x) { return std::isfinite(x); });
+    const auto& [x, half_turns, normals] = waypoint->parameters();
+    return normals.size() == x.size() * count &&
+           std::ranges::all_of(normals, [](double entry) { return std::isfinite(entry); });
   });
 }
 
@@ -238,7 +240,8 @@ void tighten(Pose<I>& motion, const I& offset) {
 /// Quaternion of a waypoint, exact.
 template <class I>
 Quaternion<I> orientation(const Waypoint& waypoint) {
-  return {I(waypoint.x[3]), I(waypoint.x[4]), I(waypoint.x[5]), I(waypoint.x[6])};
+  const PoseNumbers& x = waypoint.pose();
+  return {I(x[3]), I(x[4]), I(x[5]), I(x[6])};
 }
 
 /// The angle α of (g) in theory.md, from tan(α/2) = norm / c.
@@ -309,7 +312,7 @@ template <class I>
 std::optional<Geodesic<I>> enclose_geodesic(const Segment& segment, const I& range, const I& mid, const I& offset) {
   Geodesic<I> result;
   for (int i = 0; i < 3; ++i) {
-    result.p_WP(i) = over_box(coordinate_polynomial<I>(segment, static_cast<std::size_t>(i)), range, mid);
+    result.p_WP(i) = over_box(position_polynomial<I>(segment, static_cast<std::size_t>(i)), range, mid);
   }
   if (!follow_geodesic(segment, range, mid, result)) return std::nullopt;
   tighten(result, offset);

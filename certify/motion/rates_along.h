@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How fast winches and load go along a part of a segment, whatever the law in time.
 //
-// A length L_i, the place of the load point and the turning of the platform have by s a rate f, and f' = g, g' = h.
+// A length L_i, the places of the load point and of the platform's origin, and the turning of the platform have by s a
+// rate f, and f' = g, g' = h.
 // By time that is f ṡ, which changes at f s̈ + g ṡ². All are enclosed over the part, and f and g once more at its
 // middle m: by Taylor's theorem, for each component,
 //   f(s) is in f(m) + (s − m) (g(m) + (s − m)/2 h),   g(s) in g(m) + (s − m) h,
@@ -53,7 +54,8 @@ class RatesAlong {
     middle_ = rates_->at_middle(*model_, *segment_, over_);
   }
 
-  /// At each place of `here`, which is in the range; the pose is that over all of the range.
+  /// At each place of `here`, which is in the range; the pose is that over all of the range, and without
+  /// look_at_middle() so is the rest.
   [[nodiscard]] PathRates<I> path_on(const I& here) const {
     PathRates<I> result = over_.path;
     if (!middle_) return result;

@@ -93,11 +93,9 @@ Html exact_waypoints(const ReportContext& scene, std::size_t step) {
     std::vector<std::vector<Html>> rows;
     const std::size_t last = path.waypoints.size() - 1;
     for (std::size_t k = 0; k <= last; k = k < last ? std::min(k + step, last) : last + 1) {
-      const Waypoint& waypoint = path.waypoints[k];
+      const std::vector<std::string> texts = coordinate_texts(path.waypoints[k]);
       rows.push_back({html("{}", k)});
-      for (std::size_t j = first; j < end; ++j) {
-        rows.back().push_back(html("{}", coordinate_text(waypoint.x[j], half_turns(waypoint, j))));
-      }
+      for (std::size_t j = first; j < end; ++j) rows.back().push_back(html("{}", texts[j]));
     }
     tables += table(html("{}s, exact: {}", waypoint_name(path), names), columns, rows);
     first = end;

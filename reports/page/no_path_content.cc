@@ -46,7 +46,7 @@ ReportContext scene_of(const checker::CheckResult& checked) {
 /// "phi = -1.8413 rad, theta = 1.3422 rad"
 std::string coordinates_text(const NoPathContent& content, std::size_t n) {
   std::string text;
-  const std::vector<double>& x = content.scene.certificate.path.waypoints.at(n).x;
+  const std::vector<double>& x = content.scene.certificate.path.waypoints.at(n).parameters().x;
   for (std::size_t j = 0; j < x.size(); ++j) {
     const ShownAxis& axis = content.axes[j];
     text += fmt::format("{}{} = {}", j == 0 ? "" : ", ", axis.name, value_text(axis, axis.per_si * x[j]));

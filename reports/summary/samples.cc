@@ -8,8 +8,9 @@
 namespace taut {
 
 std::vector<double> resolved(const Waypoint& waypoint) {
-  std::vector<double> result(waypoint.x);
-  for (std::size_t j = 0; j < result.size(); ++j) result[j] += waypoint.half_turns[j] * ScalarTraits<double>::pi();
+  const ParameterPoint& point = waypoint.parameters();
+  std::vector<double> result(point.x);
+  for (std::size_t j = 0; j < result.size(); ++j) result[j] += point.half_turns[j] * ScalarTraits<double>::pi();
   return result;
 }
 

@@ -146,13 +146,16 @@ std::string angle_text(const ExpressionText& radians) {
   return radians + " rad" + in_degrees(radians);
 }
 
-std::string coordinate_text(double x, int half_turns) {
-  std::string text = fmt::format("{}", x);
-  if (half_turns != 0) {
-    const int count = std::abs(half_turns);
-    text += fmt::format(" {} {}π", half_turns > 0 ? "+" : "−", count == 1 ? "" : std::to_string(count));
+std::vector<std::string> coordinate_texts(const Waypoint& waypoint) {
+  std::vector<std::string> texts;
+  for (const double x : numbers(waypoint)) texts.push_back(fmt::format("{}", x));
+  const std::vector<int> turns = half_turns(waypoint);
+  for (std::size_t j = 0; j < turns.size(); ++j) {
+    if (turns[j] == 0) continue;
+    const int count = std::abs(turns[j]);
+    texts[j] += fmt::format(" {} {}π", turns[j] > 0 ? "+" : "−", count == 1 ? "" : std::to_string(count));
   }
-  return text;
+  return texts;
 }
 
 std::vector<std::pair<std::string, std::string>> coordinates(const Certificate& certificate) {
@@ -171,18 +174,15 @@ std::vector<std::pair<std::string, std::string>> coordinates(const Certificate& 
   return result;
 }
 
-int half_turns(const Waypoint& waypoint, std::size_t j) {
-  return j < waypoint.half_turns.size() ? waypoint.half_turns[j] : 0;
-}
-
 std::string waypoint_text(const Certificate& certificate, const Waypoint& waypoint) {
   std::string names;
   std::string values;
   const auto named = coordinates(certificate);
-  for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
+  const std::vector<std::string> texts = coordinate_texts(waypoint);
+  for (std::size_t j = 0; j < texts.size(); ++j) {
     const char* comma = j == 0 ? "" : ", ";
     names += comma + named[j].first;
-    values += comma + coordinate_text(waypoint.x[j], half_turns(waypoint, j));
+    values += comma + texts[j];
   }
   return fmt::format("({}) = ({})", names, values);
 }

@@ -47,10 +47,8 @@ namespace taut {
 
 /// The names of a waypoint's numbers, and their units.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> coordinates(const Certificate& certificate);
-/// "-2.3", "-2.3 + 2π": reads back exactly.
-[[nodiscard]] std::string coordinate_text(double x, int half_turns);
-/// Of parameter j; 0 where a waypoint has none.
-[[nodiscard]] int half_turns(const Waypoint& waypoint, std::size_t j);
+/// Its numbers, such as "-2.3" or "-2.3 + 2π": they read back exactly.
+[[nodiscard]] std::vector<std::string> coordinate_texts(const Waypoint& waypoint);
 /// "(phi, theta) = (-2.3, 1.6)"
 [[nodiscard]] std::string waypoint_text(const Certificate& certificate, const Waypoint& waypoint);
 /// "segment 1, between waypoints 1 and 2"

@@ -46,7 +46,7 @@ TEST(EdgeMotion, AgreesWithTheProversMotion) {
   const Coordinates b = on_sphere(0.9, 0.6);
   const auto waypoint = [&](const Coordinates& q) {
     Waypoint w{{q.data(), q.data() + q.size()}, std::vector<int>(5, 0)};
-    w.normals = sampler.constraints()->normals(w);
+    w.parameters().normals = sampler.constraints()->normals(w);
     return w;
   };
   const Waypoint from = waypoint(a);

@@ -60,7 +60,7 @@ double greatest_acceleration(const Path& path) {
   const double h = path.timing->step_s;
   double most = 0;
   for (std::size_t i = 2; i < path.waypoints.size(); ++i) {
-    const auto x = [&](std::size_t k) { return path.waypoints[k].x[0]; };
+    const auto x = [&](std::size_t k) { return path.waypoints[k].parameters().x[0]; };
     most = std::max(most, std::abs(x(i) - 2 * x(i - 1) + x(i - 2)) / (h * h));
   }
   return most;
@@ -130,7 +130,7 @@ TEST(MoveFit, KeepsAPlatformThatStays) {
   for (TimedRow& row : rows) row.parameters = rows.front().parameters;
   const MoveFit fit = fit_move(flying(), rows, 8, kRounding);
   EXPECT_EQ(fit.worst.share, 0);
-  for (const Waypoint& control : fit.path.waypoints) EXPECT_EQ(control.x, rows.front().parameters);
+  for (const Waypoint& control : fit.path.waypoints) EXPECT_EQ(control.parameters().x, rows.front().parameters);
 }
 
 TEST(MoveFit, IsNearNothingThatIsNoNumber) {

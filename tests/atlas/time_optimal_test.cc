@@ -200,7 +200,8 @@ TEST(TimeOptimal, ALineIsAsFastInAllDirections) {
     const Path path{{a, a, a, b, b, b}, Interpolation::kCubicBSpline};
     TimedPathProblem timed{problem, {}, {}};
     timed.limits.acceleration = 0.4;
-    const double length = std::hypot(b.x[0], b.x[1], b.x[2] - 0.3), expected = 2 * std::sqrt(length / 0.4);
+    const double length = std::hypot(b.parameters().x[0], b.parameters().x[1], b.parameters().x[2] - 0.3),
+                 expected = 2 * std::sqrt(length / 0.4);
     const auto move = time_optimal(path, timed);
     ASSERT_TRUE(move);
     EXPECT_NEAR(move->fastest_s, expected / std::sqrt(0.99), 0.005 * expected);

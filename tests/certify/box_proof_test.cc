@@ -96,9 +96,10 @@ void expect_box(const Space& space, const ProofModel<typename A::I>& model, cons
   const auto& [a, b] = segment;
   const double lower = box.lower().approx();
   const double upper = box.upper().approx();
-  const std::string where = "box " + box.k.str() + "/2^" + std::to_string(box.depth) + " from " +
-                            ::testing::PrintToString(a.x) + " to " + ::testing::PrintToString(b.x) + " half turns " +
-                            ::testing::PrintToString(a.half_turns) + ::testing::PrintToString(b.half_turns);
+  const std::string where =
+      "box " + box.k.str() + "/2^" + std::to_string(box.depth) + " from " + ::testing::PrintToString(a.parameters().x) +
+      " to " + ::testing::PrintToString(b.parameters().x) + " half turns " +
+      ::testing::PrintToString(a.parameters().half_turns) + ::testing::PrintToString(b.parameters().half_turns);
   ++tally.boxes;
   BoxEnclosure<I> enclosure;
   BoxVerdict verdict;
@@ -228,7 +229,9 @@ TYPED_TEST(BoxEnclosures, HoldTheOracleNextToSingularPoses) {
   Operands operands(4);
   Tally tally;
   const auto determinant = [&](const RandomSegment& segment, double s) {
-    const auto at = [&](std::size_t j) { return (1 - s) * segment.a.x[j] + s * segment.b.x[j]; };
+    const auto at = [&](std::size_t j) {
+      return (1 - s) * segment.a.parameters().x[j] + s * segment.b.parameters().x[j];
+    };
     return statics(approx, Pose<double>{Vector3<double>(at(0), at(1), at(2)), {at(3), at(4), at(5)}}).determinant;
   };
   const int wanted = this->kFast ? 40 : 4;
@@ -236,11 +239,11 @@ TYPED_TEST(BoxEnclosures, HoldTheOracleNextToSingularPoses) {
   for (int found = 0; found < wanted && !this->HasFailure();) {
     RandomSegment segment;
     for (const auto& [lower, upper] : space.box) {
-      segment.a.x.push_back(operands.uniform(lower, upper));
-      segment.b.x.push_back(operands.uniform(lower, upper));
+      segment.a.parameters().x.push_back(operands.uniform(lower, upper));
+      segment.b.parameters().x.push_back(operands.uniform(lower, upper));
     }
-    segment.a.half_turns.assign(6, 0);
-    segment.b.half_turns.assign(6, 0);
+    segment.a.parameters().half_turns.assign(6, 0);
+    segment.b.parameters().half_turns.assign(6, 0);
     double low = 0, high = 1;
     if (determinant(segment, low) * determinant(segment, high) >= 0) continue;
     ++found;
@@ -270,9 +273,11 @@ TYPED_TEST(BoxEnclosures, HoldTheOracleNextToSingularPoses) {
         const double mid = low + half / ratio;
         RandomSegment short_of_it = segment;
         for (std::size_t j = 0; j < 6; ++j) {
-          const auto at = [&](double s) { return (1 - s) * segment.a.x[j] + s * segment.b.x[j]; };
-          short_of_it.a.x[j] = at(mid - half);
-          short_of_it.b.x[j] = at(mid + half);
+          const auto at = [&](double s) {
+            return (1 - s) * segment.a.parameters().x[j] + s * segment.b.parameters().x[j];
+          };
+          short_of_it.a.parameters().x[j] = at(mid - half);
+          short_of_it.b.parameters().x[j] = at(mid + half);
         }
         expect_box<TypeParam>(space, model, short_of_it, {0, 0}, 0, operands, tally);
       }
@@ -298,10 +303,9 @@ TEST(BoxProof, ProvesAPoseWithinItsLimitsAndRefutesOneBeyond) {
 TEST(BoxProof, JudgesTheSamePoseReachedTheOtherWayRound) {
   const ProofModel<Interval> model = make_proof_model(robot1_slice());
   const Waypoint plain{{1.7, 1.7}, {0, 0}};
-  const Waypoint turned{{1.7, 1.7}, {2, 0}};
-  const Waypoint flipped{{1.7, -1.7}, {1, 0}};
+  const std::vector<Waypoint> others = {{{1.7, 1.7}, {2, 0}}, {{1.7, -1.7}, {1, 0}}};
   const BoxVerdict expected = judge_box(model, Segment::straight(plain, plain), {0, 0});
-  for (const Waypoint& same : {turned, flipped}) {
+  for (const Waypoint& same : others) {
     const BoxVerdict verdict = judge_box(model, Segment::straight(same, same), {0, 0});
     EXPECT_EQ(verdict.kind, expected.kind);
     EXPECT_NEAR(verdict.tension_N, expected.tension_N, 1e-9);
@@ -326,13 +330,13 @@ TEST(BoxProof, UsesEveryParameterOfMany) {
   }
   problem.space.pose[2] = "0.1 + extra19";
   Waypoint at;
-  at.x.assign(22, 0.0);
-  at.half_turns.assign(22, 0);
-  at.x[0] = at.x[1] = 1.7;
-  at.x[21] = 0.25;
+  at.parameters().x.assign(22, 0.0);
+  at.parameters().half_turns.assign(22, 0);
+  at.parameters().x[0] = at.parameters().x[1] = 1.7;
+  at.parameters().x[21] = 0.25;
   const ProofModel<Interval> model = make_proof_model(problem);
   EXPECT_EQ(judge_box(model, Segment::straight(at, at), {0, 0}).kind, BoxVerdict::Kind::kProved);
-  at.x[21] = 0.75;  // far below
+  at.parameters().x[21] = 0.75;  // far below
   const BoxVerdict verdict = judge_box(model, Segment::straight(at, at), {0, 0});
   EXPECT_NE(verdict.kind, BoxVerdict::Kind::kProved);
   EXPECT_EQ(verdict.worst.kind, MarginKind::kLengthMax);

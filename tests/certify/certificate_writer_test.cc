@@ -45,10 +45,10 @@ Path path_of(const Problem& problem, Interpolation law) {
   path.waypoints = {query_waypoints(problem).front()};
   for (int k = 1; k < 5; ++k) {
     path.waypoints.push_back(path.waypoints.back());
-    path.waypoints.back().x[0] += 0.01;
-    path.waypoints.back().half_turns[0] = k == 4 ? 0 : 2;
+    path.waypoints.back().parameters().x[0] += 0.01;
+    path.waypoints.back().parameters().half_turns[0] = k == 4 ? 0 : 2;
   }
-  for (int k = 0; k < 4; ++k) path.waypoints[static_cast<std::size_t>(k)].half_turns[0] = 0;
+  for (int k = 0; k < 4; ++k) path.waypoints[static_cast<std::size_t>(k)].parameters().half_turns[0] = 0;
   return path;
 }
 
@@ -91,11 +91,11 @@ TEST(CertificateWriter, WritesWaypointsOfAllKinds) {
   const Waypoint implied{{0.1, -2}, {0, 0}, {1, 0.5}};
   EXPECT_EQ(waypoint_text(Interpolation::kCubicBSpline, implied),
             R"({"half_turns":[0,0],"normals":["0x1p+0","0x1p-1"],"x":["0x1.999999999999ap-4","-0x1p+1"]})");
-  Waypoint pose{{1, 2, 4, 0, 0, 0, 1}, {}};
+  const PosePoint pose{{1, 2, 4, 0, 0, 0, 1}};
   EXPECT_EQ(waypoint_text(Interpolation::kGeodesic, pose),
             R"({"position":["0x1p+0","0x1p+1","0x1p+2"],"quaternion":["0x0p+0","0x0p+0","0x0p+0","0x1p+0"]})");
-  pose.x.insert(pose.x.end(), {8, 8, 8, 8, 8, 16});
-  EXPECT_EQ(waypoint_text(Interpolation::kCableLengths, pose).substr(0, 73),
+  const LengthsPoint with_lengths{pose.pose, {8, 8, 8, 8, 8, 16}};
+  EXPECT_EQ(waypoint_text(Interpolation::kCableLengths, with_lengths).substr(0, 73),
             R"({"lengths":["0x1p+3","0x1p+3","0x1p+3","0x1p+3","0x1p+3","0x1p+4"],"posit)");
 }
 
@@ -105,8 +105,9 @@ TEST(CertificateWriter, ReadsBackWithPosesAndTubes) {
     Path path;
     path.interpolation = law;
     for (int k = 0; k < 3; ++k) {
-      path.waypoints.push_back({{0.1 * k, 2, 4, 0, 0.1, 0, 1}, {}});
-      if (law == Interpolation::kCableLengths) path.waypoints.back().x.insert(path.waypoints.back().x.end(), 6, 0.3);
+      std::vector<double> x = {0.1 * k, 2, 4, 0, 0.1, 0, 1};
+      if (law == Interpolation::kCableLengths) x.insert(x.end(), 6, 0.3);
+      path.waypoints.push_back(waypoint_of(law, x, {}));
     }
     path.pose_tubes = {{0.1, 0.2}, {0x1p-40, 1}};
     path.inner_poses = {{}, {{0x1p-40, {0.1, 2, 4, 0, 0.3, 0, 1}, {0.3, 0.7}}, {0.75, {1, 2, 3, 4, 5, 6, 7}, {1, 2}}}};

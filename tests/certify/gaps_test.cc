@@ -130,10 +130,11 @@ TEST(Gaps, HoldEveryViolationAndBeginAndEndInOne) {
       Waypoint waypoint;
       for (std::size_t j = 0; j < space.box.size(); ++j) {
         const auto& [lower, upper] = space.box[j];
-        const double x = k == 0 ? operands.uniform(lower, upper)
-                                : path.waypoints.back().x[j] + step * operands.uniform(-1, 1) * (upper - lower) / 6;
-        waypoint.x.push_back(std::clamp(x, lower, upper));
-        waypoint.half_turns.push_back(0);
+        const double x =
+            k == 0 ? operands.uniform(lower, upper)
+                   : path.waypoints.back().parameters().x[j] + step * operands.uniform(-1, 1) * (upper - lower) / 6;
+        waypoint.parameters().x.push_back(std::clamp(x, lower, upper));
+        waypoint.parameters().half_turns.push_back(0);
       }
       path.waypoints.push_back(waypoint);
     }

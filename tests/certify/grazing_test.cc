@@ -101,10 +101,10 @@ std::vector<Grazing> grazing_segments(const Space& space) {
     for (int trial = 0; trial < 400; ++trial) {
       RandomSegment segment;
       for (const auto& [lower, upper] : space.box) {
-        segment.a.x.push_back(operands.uniform(lower, upper));
-        segment.b.x.push_back(segment.a.x.back() + operands.uniform(-0.4, 0.4));
+        segment.a.parameters().x.push_back(operands.uniform(lower, upper));
+        segment.b.parameters().x.push_back(segment.a.parameters().x.back() + operands.uniform(-0.4, 0.4));
       }
-      segment.a.half_turns = segment.b.half_turns = {0, 0};
+      segment.a.parameters().half_turns = segment.b.parameters().half_turns = {0, 0};
       const MarginId id{kind, operands.pick(6)};
       if (prover.prove(segment.a, segment.b).verdict != Verdict::kProved) continue;
       const auto least = least_inside(space, segment, id);

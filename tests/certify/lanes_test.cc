@@ -29,10 +29,10 @@ struct RandomBox {
     const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
     const double reach = std::exp2(uniform(-30, 0));
     for (const auto& [low, high] : {std::pair{-3.14, 3.14}, std::pair{0.0, 2.0}}) {
-      from.x.push_back(uniform(low, high));
-      to.x.push_back(from.x.back() + uniform(-reach, reach));
+      from.parameters().x.push_back(uniform(low, high));
+      to.parameters().x.push_back(from.parameters().x.back() + uniform(-reach, reach));
     }
-    from.half_turns = to.half_turns = {0, 0};
+    from.parameters().half_turns = to.parameters().half_turns = {0, 0};
     const int depth = std::uniform_int_distribution<int>(0, 3)(random);
     box = {std::uniform_int_distribution<int>(0, (1 << depth) - 1)(random), depth};
   }

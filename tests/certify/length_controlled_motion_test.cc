@@ -23,12 +23,7 @@ namespace {
 Waypoint at(const Model<double>& model, double phi, double theta) {
   constexpr double kSigma = 0.6;
   const RigidPose pose = rigid_pose({{0, 0, 0.35}, phi, theta, kSigma});
-  Waypoint result;
-  for (int k = 0; k < 3; ++k) result.x.push_back(pose.p(k));
-  for (int k = 0; k < 4; ++k) result.x.push_back(pose.q.coeffs()(k));
-  for (const double length : cable_lengths(model, pose)) result.x.push_back(length);
-  result.half_turns.assign(result.x.size(), 0);
-  return result;
+  return LengthsPoint{pose_numbers(pose), cable_lengths(model, pose)};
 }
 
 /// Robot 1 from one tilt to another in one step, its lengths straight.
@@ -38,9 +33,9 @@ struct Step {
         model(make_model<double>(problem)),
         prover(problem),
         ends{at(model, from[0], from[1]), at(model, to[0], to[1])} {
-    double dot = 0;
-    for (std::size_t k = 3; k < 7; ++k) dot += ends[0].x[k] * ends[1].x[k];
-    for (std::size_t k = 3; dot < 0 && k < 7; ++k) ends[1].x[k] = -ends[1].x[k];
+    RigidPose last = rigid_pose(ends[1].pose());
+    if (last.q.dot(rigid_pose(ends[0].pose()).q) < 0) last.q.coeffs() = -last.q.coeffs();
+    ends[1] = LengthsPoint{pose_numbers(last), ends[1].lengths_m()};
     segment = prover.prepared(Segment::between(Interpolation::kCableLengths, ends[0], ends[1]));
   }
 
@@ -53,11 +48,7 @@ struct Step {
 
   /// By the lengths, from the start.
   [[nodiscard]] RigidPose pose(double s) const {
-    std::array<double, kCables> lengths{};
-    for (std::size_t i = 0; i < kCables; ++i) lengths[i] = (1 - s) * ends[0].x[7 + i] + s * ends[1].x[7 + i];
-    const auto& x = ends[0].x;
-    const auto found =
-        pose_of_lengths(model, lengths, {{x[0], x[1], x[2]}, Eigen::Quaterniond(x[6], x[3], x[4], x[5])});
+    const auto found = pose_of_lengths(model, lengths_at(segment, s), rigid_pose(ends[0].pose()));
     EXPECT_TRUE(found);
     return *found;
   }
@@ -435,7 +426,9 @@ TEST(HeldMotion, WrongInnerPosesProveNothing) {
 TEST(HeldMotion, WhereNoPoseHasTheLengthsOneShortPieceIsLeftOpen) {
   // The fifth cable is to become longer than the others let it: both ends have their lengths, the way between has not.
   Step step(kStart, {-2.2, 1.5});
-  step.ends[1].x[7] = 0.9;
+  std::array<double, kCables> lengths = step.ends[1].lengths_m();
+  lengths[0] = 0.9;
+  step.ends[1] = LengthsPoint{step.ends[1].pose(), lengths};
   step.segment = step.prover.prepared(Segment::between(Interpolation::kCableLengths, step.ends[0], step.ends[1]));
   EXPECT_NE(step.prover.prove(step.segment).verdict, Verdict::kProved);
 }

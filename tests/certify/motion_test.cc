@@ -92,10 +92,12 @@ Exact exact_motion(const Surface& surface, const Segment& segment, double s) {
   Vector line;
   Vector normals;
   for (std::size_t j = 0; j < m; ++j) {
-    line.push_back(mixed(
-        segment, s, [&](const Waypoint& w) { return BigFloat(w.x[j]) + oracle::pi() * BigFloat(w.half_turns[j]); }));
+    line.push_back(mixed(segment, s, [&](const Waypoint& w) {
+      return BigFloat(w.parameters().x[j]) + oracle::pi() * BigFloat(w.parameters().half_turns[j]);
+    }));
     for (std::size_t i = 0; i < k; ++i) {
-      normals.push_back(mixed(segment, s, [&](const Waypoint& w) { return BigFloat(w.normals[j * k + i]); }));
+      normals.push_back(
+          mixed(segment, s, [&](const Waypoint& w) { return BigFloat(w.parameters().normals[j * k + i]); }));
     }
   }
   Exact exact{line, Vector(k)};
@@ -137,13 +139,13 @@ std::unique_ptr<Trial> random_trial(const Surface& surface, const Prover& prover
   for (Waypoint& waypoint : trial->points) {
     for (double& value : x) value += 0.2 * step * operands.uniform(-1, 1);
     waypoint = {x, {0, 0, 0, 2, 0, 0}};
-    waypoint.x[3] -= 2 * 3.14159265358979323846;
+    waypoint.parameters().x[3] -= 2 * 3.14159265358979323846;
     for (int newton = 0; newton < 8; ++newton) {
-      waypoint.normals = functions.normals(waypoint);
-      waypoint.x = functions.parameters(Segment::straight(waypoint, waypoint), 0);
-      waypoint.x[3] -= 2 * 3.14159265358979323846;  // parameters() has counted the half turns
+      waypoint.parameters().normals = functions.normals(waypoint);
+      waypoint.parameters().x = functions.parameters(Segment::straight(waypoint, waypoint), 0);
+      waypoint.parameters().x[3] -= 2 * 3.14159265358979323846;  // parameters() has counted the half turns
     }
-    for (double& value : waypoint.x) value += 1e-3 * step * operands.uniform(-1, 1);
+    for (double& value : waypoint.parameters().x) value += 1e-3 * step * operands.uniform(-1, 1);
   }
   const bool spline = operands.coin(0.5);
   if (spline && operands.coin(0.3)) trial->points[1] = trial->points[2] = trial->points[0];  // where a spline begins
@@ -233,12 +235,14 @@ TYPED_TEST(Motion, HoldsTheRotationsOfAllAngles) {
       std::array<Waypoint, 2> ends;
       for (Waypoint& end : ends) {
         for (std::size_t j = 0; j < count; ++j) {
-          end.x.push_back(ends[0].x.size() > j && &end != &ends[0] ? ends[0].x[j] + step * operands.uniform(-1, 1)
-                                                                   : operands.uniform(-3, 3));
+          end.parameters().x.push_back(ends[0].parameters().x.size() > j && &end != &ends[0]
+                                           ? ends[0].parameters().x[j] + step * operands.uniform(-1, 1)
+                                           : operands.uniform(-3, 3));
         }
-        end.half_turns.assign(count, 0);
+        end.parameters().half_turns.assign(count, 0);
       }
-      if (trial % 4 == 0 && count == 6) ends[trial / 4 % 2].x[4] = std::numbers::pi / 2;  // of pitch: gimbal lock
+      if (trial % 4 == 0 && count == 6)
+        ends[trial / 4 % 2].parameters().x[4] = std::numbers::pi / 2;  // of pitch: gimbal lock
       const Segment segment = Segment::straight(ends[0], ends[1]);
       const int depth = operands.pick(6);
       const double radius = std::ldexp(1.0, -depth - 1);
@@ -253,7 +257,7 @@ TYPED_TEST(Motion, HoldsTheRotationsOfAllAngles) {
       const auto at = [&](double s) {
         Vector x(6, BigFloat(0.0));
         for (std::size_t j = 0; j < count; ++j) {
-          x[j] = mixed(segment, s, [&](const Waypoint& w) { return BigFloat(w.x[j]); });
+          x[j] = mixed(segment, s, [&](const Waypoint& w) { return BigFloat(w.parameters().x[j]); });
         }
         return exact_rotation(angles, x);
       };
@@ -316,14 +320,14 @@ TEST(Motion, NormalsThatAreMissingOrNotFiniteProveNothing) {
     EXPECT_NE(prover.judge(segment, {}).kind, BoxVerdict::Kind::kProved) << tube;
   }
   segment.tube = 0x1p-12;
-  const std::vector<double> good = trial->points[0].normals;
+  const std::vector<double> good = trial->points[0].parameters().normals;
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
-    trial->points[0].normals[1] = bad;
+    trial->points[0].parameters().normals[1] = bad;
     EXPECT_EQ(prover.judge(segment, {}).kind, BoxVerdict::Kind::kNoMotion) << bad;
   }
-  trial->points[0].normals = {};
+  trial->points[0].parameters().normals = {};
   EXPECT_EQ(prover.judge(segment, {}).kind, BoxVerdict::Kind::kNoMotion);
-  trial->points[0].normals = good;
+  trial->points[0].parameters().normals = good;
   EXPECT_NE(prover.judge(segment, {}).kind, BoxVerdict::Kind::kNoMotion);
 }
 

@@ -96,8 +96,8 @@ TEST(RowDistance, TakesTheEndsBeforeAndAfterTheMove) {
   const Problem problem = flying();
   const Path path = some_move();
   const RowDistances distances(problem, path);
-  const RowPose first{RowPose::Form::kParameters, path.waypoints.front().x, std::vector<int>(6, 0)};
-  const RowPose last{RowPose::Form::kParameters, path.waypoints.back().x, std::vector<int>(6, 0)};
+  const RowPose first{RowPose::Form::kParameters, path.waypoints.front().parameters().x, std::vector<int>(6, 0)};
+  const RowPose last{RowPose::Form::kParameters, path.waypoints.back().parameters().x, std::vector<int>(6, 0)};
   EXPECT_LT(distances.at(0, first)->position_m, 1e-14);
   EXPECT_LT(distances.at(-1, first)->position_m, 1e-14);
   // 6 h, with h next to 0.3: the exact time is not the law's.
@@ -110,7 +110,7 @@ TEST(RowDistance, TakesTheEndsBeforeAndAfterTheMove) {
 TEST(RowDistance, CountsHalfTurns) {
   const Problem problem = flying();
   const Path path = some_move();
-  RowPose row{RowPose::Form::kParameters, path.waypoints.front().x, std::vector<int>(6, 0)};
+  RowPose row{RowPose::Form::kParameters, path.waypoints.front().parameters().x, std::vector<int>(6, 0)};
   row.half_turns[5] = 2;
   EXPECT_LT(RowDistances(problem, path).at(0, row)->angle_rad, 1e-13);
   row.half_turns[5] = 1;
@@ -149,7 +149,7 @@ TEST(RowDistance, OfLengthsIsAboveThatOfEachCableAndByLittle) {
 TEST(RowDistance, SaysNothingOfWhatItCannotEnclose) {
   const Problem problem = flying();
   const Path path = some_move();
-  RowPose row{RowPose::Form::kParameters, path.waypoints.front().x, std::vector<int>(6, 0)};
+  RowPose row{RowPose::Form::kParameters, path.waypoints.front().parameters().x, std::vector<int>(6, 0)};
   row.x[0] = 1e300;
   EXPECT_FALSE(RowDistances(problem, path).at(0, row));
 }

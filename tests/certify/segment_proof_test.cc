@@ -36,10 +36,11 @@ TEST(QueryWaypoints, AreTheNearestBinary64OfEachExpression) {
   const std::vector<Waypoint> waypoints = query_waypoints(problem);
   ASSERT_EQ(waypoints.size(), problem.query.size());
   for (std::size_t k = 0; k < waypoints.size(); ++k) {
-    for (std::size_t j = 0; j < 2; ++j) EXPECT_EQ(waypoints[k].x[j], nearest_binary64(problem.query[k][j])) << k << j;
-    EXPECT_EQ(waypoints[k].half_turns, std::vector<int>(2, 0));
+    for (std::size_t j = 0; j < 2; ++j)
+      EXPECT_EQ(waypoints[k].parameters().x[j], nearest_binary64(problem.query[k][j])) << k << j;
+    EXPECT_EQ(waypoints[k].parameters().half_turns, std::vector<int>(2, 0));
   }
-  EXPECT_FALSE(std::signbit(waypoints[1].x[1]));
+  EXPECT_FALSE(std::signbit(waypoints[1].parameters().x[1]));
 }
 
 TEST(QueryWaypoints, NameTheExpressionThatIsNoNumber) {
@@ -108,7 +109,7 @@ TEST(Prover, RefutesTheStraightMotionOfThePaperEitherWayRound) {
   const Prover prover(robot1_slice());
   for (const int half_turns : {0, -2}) {
     Waypoint goal = at({1.7, 1.7});
-    goal.half_turns[0] = half_turns;
+    goal.parameters().half_turns[0] = half_turns;
     const SegmentProof proof = prover.prove(kStart, goal);
     ASSERT_EQ(proof.verdict, Verdict::kRefuted);
     ASSERT_TRUE(proof.witness.has_value());
@@ -149,7 +150,7 @@ TEST(Prover, AWholeTurnApartIsTheSameMotion) {
   const Prover prover(robot1_slice());
   Waypoint a = kStart;
   Waypoint b = kNearStart;
-  a.half_turns[0] = b.half_turns[0] = 2;
+  a.parameters().half_turns[0] = b.parameters().half_turns[0] = 2;
   const SegmentProof here = prover.prove(kStart, kNearStart);
   const SegmentProof there = prover.prove(a, b);
   ASSERT_EQ(there.verdict, Verdict::kProved);
@@ -160,7 +161,7 @@ TEST(Prover, TheFlippedImageIsTheSameMotion) {
   const Prover prover(robot1_slice());
   Waypoint a = at({-2.3, -1.6});
   Waypoint b = at({-2.25, -1.5});
-  a.half_turns[0] = b.half_turns[0] = 1;
+  a.parameters().half_turns[0] = b.parameters().half_turns[0] = 1;
   const SegmentProof here = prover.prove(kStart, kNearStart);
   const SegmentProof there = prover.prove(a, b);
   ASSERT_EQ(there.verdict, Verdict::kProved);
@@ -312,7 +313,7 @@ TEST(Prover, NamesTheParameterThatIsOutsideItsRange) {
 TEST(Prover, HalfTurnsNeedAPeriodicParameter) {
   const Prover prover(robot1_slice());
   Waypoint turned = kStart;
-  turned.half_turns[1] = 2;  // theta
+  turned.parameters().half_turns[1] = 2;  // theta
   EXPECT_NE(prover.prove(turned, turned).verdict, Verdict::kProved);
 }
 

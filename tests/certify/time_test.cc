@@ -106,9 +106,9 @@ TEST(TimeLaw, RestsWhereItHasTo) {
   EXPECT_EQ(of({at(0), at(0), at(1), at(1)}, kSpline, {0, 0, 0, 0.5, 1, 1, 1}), "");
   // Only with its normals a control point that is repeated holds a motion on constraints.
   std::vector<Waypoint> constrained = still;
-  for (Waypoint& point : constrained) point.normals.assign(6, 0.5);
+  for (Waypoint& point : constrained) point.parameters().normals.assign(6, 0.5);
   EXPECT_EQ(of(constrained, kSpline, {-1, 0, 1, 2, 3, 4}), "");
-  constrained[2].normals[5] = 0.25;
+  constrained[2].parameters().normals[5] = 0.25;
   EXPECT_THAT(of(constrained, kSpline, {-1, 0, 1, 2, 3, 4}), HasSubstr("three control values of 0"));
   for (const Interpolation law : {Interpolation::kGeodesic, Interpolation::kCableLengths}) {
     EXPECT_THAT(of({at(0), at(1)}, law, {-0.25, 0, 0.25, 0.75, 1, 1.25}), HasSubstr("three control values of 0"));
@@ -489,7 +489,7 @@ TYPED_TEST(InTime, RatesAlongAPartAreThoseOfEachOfItsPlaces) {
 TYPED_TEST(InTime, AGeodesicThatMayBeHalfATurnHasNoRates) {
   using I = typename TypeParam::I;
   const Problem problem = free_flying(robot2_sphere());
-  const auto pose = [](double qz, double qw) { return Waypoint{{0, 0, 0.3, 0, 0, qz, qw}, {}}; };
+  const auto pose = [](double qz, double qw) { return Waypoint(PosePoint{{0, 0, 0.3, 0, 0, qz, qw}}); };
   const auto are_known = [&](const Waypoint& a, const Waypoint& b) {
     bool result = false;
     const bool is_sound = TypeParam::run([&] {

@@ -25,7 +25,7 @@ using nlohmann::json;
 
 std::vector<ExpressionText> typed(const Waypoint& waypoint) {
   std::vector<ExpressionText> result;
-  for (const double x : waypoint.x) {
+  for (const double x : waypoint.parameters().x) {
     char text[40];
     std::snprintf(text, sizeof text, "%.17g", x);
     result.push_back(text);
@@ -41,7 +41,8 @@ CheckResult check(Problem problem, const Path& path, const PathProof& proof) {
 
 bool has_half_turns(const Path& path) {
   return std::ranges::any_of(path.waypoints, [](const Waypoint& waypoint) {
-    return std::ranges::any_of(waypoint.half_turns, [](int n) { return n % 2 != 0; });
+    const auto* const point = std::get_if<ParameterPoint>(&waypoint.point());
+    return point != nullptr && std::ranges::any_of(point->half_turns, [](int n) { return n % 2 != 0; });
   });
 }
 
@@ -166,8 +167,8 @@ int zeros(const ConstraintFunctions& functions, const Segment& segment, double s
     ConstraintFunctions::Vector lambda(2), values;
     ConstraintFunctions::Jacobian jacobian;
     for (std::size_t j = 0; j < 2; ++j) {
-      lambda[static_cast<int>(j)] =
-          mix([&](const Waypoint& w) { return w.x[j]; }) + y * mix([&](const Waypoint& w) { return w.normals[j]; });
+      lambda[static_cast<int>(j)] = mix([&](const Waypoint& w) { return w.parameters().x[j]; }) +
+                                    y * mix([&](const Waypoint& w) { return w.parameters().normals[j]; });
     }
     functions.evaluate(lambda, values, jacobian);
     return values[0];

@@ -50,7 +50,10 @@ Path path_to_kernel(const taut::Path& path) {
     case Interpolation::kGeodesic: result.law = Law::kGeodesic; break;
     case Interpolation::kCableLengths: result.law = Law::kCableLengths; break;
   }
-  for (const taut::Waypoint& w : path.waypoints) result.waypoints.push_back({w.x, w.half_turns, w.normals});
+  for (const taut::Waypoint& w : path.waypoints) {
+    const bool has_pose = taut::has_poses(path.interpolation);
+    result.waypoints.push_back({numbers(w), half_turns(w), has_pose ? std::vector<double>() : w.parameters().normals});
+  }
   result.tubes = path.tubes;
   for (const taut::PoseTube& tube : path.pose_tubes) result.pose_tubes.push_back({tube.position, tube.turn});
   for (const auto& poses : path.inner_poses) {

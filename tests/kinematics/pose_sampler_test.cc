@@ -52,13 +52,8 @@ TEST(PoseSampler, FollowsLawsOfPoses) {
   const RigidPose a = rigid_pose({Vector3<double>(0, 0, 0.35), -1.5, 1.4, 0.6});
   const RigidPose b = rigid_pose({Vector3<double>(0.01, 0.02, 0.34), -1.3, 1.5, 0.7});
   const auto waypoint = [&](const RigidPose& pose, double sign, bool with_lengths) {
-    Waypoint result{
-        {pose.p(0), pose.p(1), pose.p(2), sign * pose.q.x(), sign * pose.q.y(), sign * pose.q.z(), sign * pose.q.w()},
-        {}};
-    for (const double length : cable_lengths(sampler.model(), pose)) {
-      if (with_lengths) result.x.push_back(length);
-    }
-    return result;
+    const PoseNumbers x = pose_numbers({pose.p, Eigen::Quaterniond(sign * pose.q.coeffs())});
+    return with_lengths ? Waypoint(LengthsPoint{x, cable_lengths(sampler.model(), pose)}) : Waypoint(PosePoint{x});
   };
   // Geodesic: from a, the turn to b has the same angle at either half, whatever the signs of the quaternions.
   for (const double sign : {1.0, -1.0}) {
@@ -75,7 +70,8 @@ TEST(PoseSampler, FollowsLawsOfPoses) {
   const Segment segment = Segment::between(Interpolation::kCableLengths, from, to);
   const auto lengths =
       cable_lengths(sampler.model(), sampler.rigid_pose(sampler.pose(sampler.parameters(segment, 0.25))));
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(lengths[i], 0.75 * from.x[7 + i] + 0.25 * to.x[7 + i], 1e-12);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(lengths[i], 0.75 * from.lengths_m()[i] + 0.25 * to.lengths_m()[i], 1e-12);
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ TEST(Segment, OfASplineIsTheFormulaOfTheFormat) {
     const double s = std::abs(number(random)) / 2;
     for (std::size_t j = 0; j < 2; ++j) {
       std::array<double, 4> v;
-      for (std::size_t i = 0; i < 4; ++i) v[i] = q[i].x[j] + ScalarTraits<double>::pi() * q[i].half_turns[j];
+      for (std::size_t i = 0; i < 4; ++i)
+        v[i] = q[i].parameters().x[j] + ScalarTraits<double>::pi() * q[i].parameters().half_turns[j];
       const double expected = (std::pow(1 - s, 3) * v[0] + (3 * s * s * s - 6 * s * s + 4) * v[1] +
                                (-3 * s * s * s + 3 * s * s + 3 * s + 1) * v[2] + s * s * s * v[3]) /
                               6;

@@ -136,7 +136,7 @@ TEST(WaypointMaker, KeepsNumbersThatAreTheLawsOwn) {
   const Problem problem = testing::robot1_slice();
   EXPECT_EQ(waypoints("phi[rad],theta[rad]\n0.1,0.7\n", {}, problem), (std::vector<Waypoint>{{{0.1, 0.7}, {0, 0}}}));
   EXPECT_EQ(waypoints("0 0 0 0.35 0 0 0.6 -0.8\n", {}, problem),
-            (std::vector<Waypoint>{{{0, 0, 0.35, 0, 0, 0.6, -0.8}, {}}}));
+            std::vector<Waypoint>{PosePoint({{0, 0, 0.35, 0, 0, 0.6, -0.8}})});
   EXPECT_EQ(waypoints("px[m],py[m],pz[m],phi[rad],theta[rad],sigma[rad]\n0,0,0.35,3,-0.2,0.5\n", {}, problem),
             (std::vector<Waypoint>{{{0, 0, 0.35, 3, -0.2, 0.5}, {0, 0, 0, 0, 0, 0}}}));
 }
@@ -161,7 +161,7 @@ TEST(WaypointMaker, ConvertsThereAndBack) {
   for (const Waypoint& w : geodesic) {
     for (std::size_t j = 0; j < 7; ++j) {
       char number[40];
-      std::snprintf(number, sizeof number, "%s%.17g", j == 0 ? "" : ",", w.x[j]);
+      std::snprintf(number, sizeof number, "%s%.17g", j == 0 ? "" : ",", w.pose()[j]);
       text += number;
     }
     text += "\n";
@@ -169,29 +169,30 @@ TEST(WaypointMaker, ConvertsThereAndBack) {
   const std::vector<Waypoint> back = waypoints(text, Interpolation::kStraight, problem);
   ASSERT_EQ(back.size(), angles.size());
   for (std::size_t k = 0; k < back.size(); ++k) {
-    for (std::size_t j = 0; j < 6; ++j) EXPECT_NEAR(back[k].x[j] + M_PI * back[k].half_turns[j], angles[k].x[j], 1e-13);
+    for (std::size_t j = 0; j < 6; ++j)
+      EXPECT_NEAR(back[k].parameters().x[j] + M_PI * back[k].parameters().half_turns[j], angles[k].parameters().x[j],
+                  1e-13);
   }
-  EXPECT_NE(back[1].half_turns[3], 0) << "3.2 is a turn beyond the principal value";
+  EXPECT_NE(back[1].parameters().half_turns[3], 0) << "3.2 is a turn beyond the principal value";
 }
 
 TEST(WaypointMaker, FindsThePoseOfLengthsRowByRow) {
   const Problem problem = testing::robot1_slice();
   const std::vector<Waypoint> commanded = waypoints(kAngleRows, Interpolation::kCableLengths, problem);
-  ASSERT_EQ(commanded[0].x.size(), 13u);
   std::string text = "px[m],py[m],pz[m],phi[rad],theta[rad],sigma[rad],l1[m],l2[m],l3[m],l4[m],l5[m],l6[m]\n";
   for (const Waypoint& w : commanded) {
     text += text.ends_with("l6[m]\n") ? "0,0,0.35,3,0.2,0.5" : ",,,,,";
-    for (std::size_t j = 7; j < 13; ++j) {
+    for (const double length : w.lengths_m()) {
       char number[40];
-      std::snprintf(number, sizeof number, ",%.17g", w.x[j]);
+      std::snprintf(number, sizeof number, ",%.17g", length);
       text += number;
     }
     text += "\n";
   }
   const std::vector<Waypoint> found = waypoints(text, {}, problem);
   for (std::size_t k = 0; k < found.size(); ++k) {
-    for (std::size_t j = 0; j < 7; ++j) EXPECT_NEAR(found[k].x[j], commanded[k].x[j], 1e-11);
-    for (std::size_t j = 7; j < 13; ++j) EXPECT_EQ(found[k].x[j], commanded[k].x[j]);
+    for (std::size_t j = 0; j < 7; ++j) EXPECT_NEAR(found[k].pose()[j], commanded[k].pose()[j], 1e-11);
+    EXPECT_EQ(found[k].lengths_m(), commanded[k].lengths_m());
   }
 }
 
@@ -200,7 +201,7 @@ TEST(WaypointMaker, LengthsWithoutAPoseAreLost) {
   const std::string text = "l1[m],l2[m],l3[m],l4[m],l5[m],l6[m]\n0.3,0.3,0.3,0.3,0.3,0.3\n0.3,0.3,9,0.3,0.3,0.3\n";
   PathFile file(std::make_unique<std::istringstream>(text), "p.txt", problem.space);
   WaypointMaker maker(problem, file.header(), Interpolation::kCableLengths, "p.txt");
-  for (PathRow row; file.next(row);) EXPECT_EQ(maker.next(row, file.start()).x.size(), 13u);
+  for (PathRow row; file.next(row);) EXPECT_TRUE(have_lengths(maker.next(row, file.start())));
   EXPECT_TRUE(maker.lost_line());
   EXPECT_GT(maker.start_error_m(), 0.01);
   problem.query.clear();

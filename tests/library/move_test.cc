@@ -200,8 +200,8 @@ TEST(Move, CornersAndStopsAreKept) {
   const Case the_case = crane(false);
   std::vector<Waypoint> points = query_waypoints(the_case.problem);
   Waypoint middle = points.front();
-  middle.x[0] = 0;
-  middle.x[2] += 1;
+  middle.parameters().x[0] = 0;
+  middle.parameters().x[2] += 1;
   points.insert(points.begin() + 1, middle);
   const Path corner{points};
   for (const Path& path : {corner, spline_of(points)}) {

@@ -28,7 +28,7 @@ Case with_query(Case the_case, const std::vector<std::vector<double>>& waypoints
 
 std::vector<std::vector<double>> waypoints_of(const Plan& plan) {
   std::vector<std::vector<double>> result;
-  for (const Waypoint& waypoint : plan.path.waypoints) result.push_back(waypoint.x);
+  for (const Waypoint& waypoint : plan.path.waypoints) result.push_back(waypoint.parameters().x);
   return result;
 }
 

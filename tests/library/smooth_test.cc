@@ -21,7 +21,7 @@ double length(const Path& path) {
 }
 
 Waypoint halfway(const Waypoint& a, const Waypoint& b) {
-  return at({0.5 * (a.x[0] + b.x[0]), 0.5 * (a.x[1] + b.x[1])});
+  return at({0.5 * (a.parameters().x[0] + b.parameters().x[0]), 0.5 * (a.parameters().x[1] + b.parameters().x[1])});
 }
 
 /// A corner within the wrench-feasible part of the slice.
@@ -36,8 +36,9 @@ TEST(Smooth, RoundsACornerProvesItAndIsShorter) {
   EXPECT_EQ(rounded->proof.verdict, Verdict::kProved);
   EXPECT_EQ(rounded->proof.segments.size(), rounded->path.segments());
   EXPECT_LT(rounded->length, length(kCorner));
-  EXPECT_EQ(curve_parameters(rounded->path.segment(0), 0), kCorner.waypoints.front().x);
-  EXPECT_EQ(curve_parameters(rounded->path.segment(rounded->path.segments() - 1), 1), kCorner.waypoints.back().x);
+  EXPECT_EQ(curve_parameters(rounded->path.segment(0), 0), kCorner.waypoints.front().parameters().x);
+  EXPECT_EQ(curve_parameters(rounded->path.segment(rounded->path.segments() - 1), 1),
+            kCorner.waypoints.back().parameters().x);
 }
 
 TEST(Smooth, PassesThroughEachStop) {
@@ -46,7 +47,7 @@ TEST(Smooth, PassesThroughEachStop) {
   ASSERT_TRUE(rounded);
   int passed = 0;
   for (std::size_t k = 0; k < rounded->path.segments(); ++k) {
-    if (curve_parameters(rounded->path.segment(k), 0) == kCorner.waypoints[1].x) ++passed;
+    if (curve_parameters(rounded->path.segment(k), 0) == kCorner.waypoints[1].parameters().x) ++passed;
   }
   EXPECT_GE(passed, 1);
 }

@@ -167,7 +167,11 @@ TEST(BrokenLimits, HeadTheReportWithTheGravestThatWasConfirmed) {
 /// An audit whose poses are implied.
 ReportContext implied(const json& certificate) {
   ReportContext scene = sample::scene(certificate);
-  scene.certificate.path.interpolation = Interpolation::kCableLengths;
+  Path& path = scene.certificate.path;
+  path.interpolation = Interpolation::kCableLengths;
+  LengthsPoint point{{0, 0, 0.35, 0, 0, 0, 1}, {}};
+  point.length_m.fill(0.3);
+  path.waypoints.assign(path.waypoints.size(), point);
   return scene;
 }
 

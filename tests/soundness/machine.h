@@ -82,10 +82,10 @@ struct RigidPose {
 
 /// Straight positions; orientations by spherical linear interpolation of quaternions, the shorter way.
 template <class S>
-RigidPose<S> slerp(const std::vector<double>& from, const std::vector<double>& to, const S& s) {
+RigidPose<S> slerp(std::span<const double> from, std::span<const double> to, const S& s) {
   const S one(1.0);
-  const auto position = [](const std::vector<double>& x) { return Vec<S>{S(x[0]), S(x[1]), S(x[2])}; };
-  const auto unit = [](const std::vector<double>& x) {
+  const auto position = [](std::span<const double> x) { return Vec<S>{S(x[0]), S(x[1]), S(x[2])}; };
+  const auto unit = [](std::span<const double> x) {
     Quaternion<S> q{S(x[3]), S(x[4]), S(x[5]), S(x[6])};
     const S n = root(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     for (S& c : q) c = c / n;
@@ -118,7 +118,7 @@ RigidPose<S> slerp(const std::vector<double>& from, const std::vector<double>& t
 
 /// The reference of the law of cable lengths.
 template <class S>
-RigidPose<S> mixed(const std::vector<double>& from, const std::vector<double>& to, const S& s) {
+RigidPose<S> mixed(std::span<const double> from, std::span<const double> to, const S& s) {
   const S one(1.0);
   std::array<S, 7> x;
   for (std::size_t k = 0; k < 7; ++k) x[k] = (one - s) * S(from[k]) + s * S(to[k]);

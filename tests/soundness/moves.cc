@@ -616,7 +616,7 @@ class MoveJudge {
     }
     const auto typed = [](const Waypoint& waypoint) {
       std::vector<ExpressionText> result;
-      for (const double x : waypoint.x) result.push_back(fmt::format("{:.17g}", x));
+      for (const double x : waypoint.parameters().x) result.push_back(fmt::format("{:.17g}", x));
       return result;
     };
     problem.query.clear();

@@ -232,7 +232,7 @@ OracleConstraints implicit_sphere_oracle() {
 
 /// p on a sphere about the origin through the first waypoint (up to six digits); orientation free.
 void put_on_sphere(Trial& trial) {
-  const std::vector<double>& x = trial.controls[0].x;
+  const std::vector<double>& x = trial.controls[0].parameters().x;
   const DecimalText square = decimal(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
   trial.problem.space.constraints = {"px^2 + py^2 + pz^2 - " + square};
   trial.constraints = OracleConstraints{
@@ -246,21 +246,23 @@ void put_on_sphere(Trial& trial) {
 
 /// Next to the constraints, as a planner would put it, but not on them; with normals.
 void bring_near(const ConstraintFunctions& functions, Waypoint& waypoint, Random& random) {
-  waypoint.normals = functions.normals(waypoint);
+  waypoint.parameters().normals = functions.normals(waypoint);
   const double distance = std::pow(10.0, uniform(random, -12, -2));
   const std::vector<double> on = functions.parameters(Segment::straight(waypoint, waypoint), 0);
-  for (std::size_t j = 0; j < on.size(); ++j) waypoint.x[j] = on[j] + distance * (waypoint.x[j] - on[j]);
-  waypoint.normals = functions.normals(waypoint);
+  for (std::size_t j = 0; j < on.size(); ++j)
+    waypoint.parameters().x[j] = on[j] + distance * (waypoint.parameters().x[j] - on[j]);
+  waypoint.parameters().normals = functions.normals(waypoint);
 }
 
 /// Control points 1, 2, 3 by random steps from point 0, in proportion to `scale`.
 void walk(Trial& trial, Random& random, const std::vector<double>& scale) {
   const double step = one_in(random, 8) ? 0.15 * std::pow(10.0, uniform(random, -6, 0)) : 0.15;
-  trial.controls[0].half_turns.assign(trial.controls[0].x.size(), 0);
+  trial.controls[0].parameters().half_turns.assign(trial.controls[0].parameters().x.size(), 0);
   for (std::size_t k = 1; k < 4; ++k) {
     trial.controls[k] = trial.controls[k - 1];
     if (one_in(random, 16)) continue;  // control points may be equal
-    for (std::size_t j = 0; j < scale.size(); ++j) trial.controls[k].x[j] += step * scale[j] * uniform(random, -1, 1);
+    for (std::size_t j = 0; j < scale.size(); ++j)
+      trial.controls[k].parameters().x[j] += step * scale[j] * uniform(random, -1, 1);
   }
 }
 
@@ -284,14 +286,14 @@ void choose_angles(Trial& trial, Random& random, bool constrained) {
     for (DecimalText& x : angles.axis) x = one_in(random, 3) ? "0" : decimal(length * uniform(random, -1, 1));
     if (std::ranges::count(angles.axis, "0") == 3) angles.axis[2] = "-1";
     for (Waypoint& waypoint : trial.controls) {
-      waypoint.x.resize(4);
-      waypoint.half_turns.resize(4);
+      waypoint.parameters().x.resize(4);
+      waypoint.parameters().half_turns.resize(4);
     }
     set_pose(trial, turned_coordinates);
   } else if (one_in(random, 4)) {
     const double locked = angles.kind == AngleKind::kRollPitchYaw ? 0x1.921fb54442d18p+0 : 0;
-    const double shift = locked - trial.controls[0].x[4];
-    for (Waypoint& waypoint : trial.controls) waypoint.x[4] += shift;
+    const double shift = locked - trial.controls[0].parameters().x[4];
+    for (Waypoint& waypoint : trial.controls) waypoint.parameters().x[4] += shift;
   }
   trial.problem.space = coordinate_space(angles);
   trial.problem.space.constraints = constraints;
@@ -302,7 +304,7 @@ void choose_space(Trial& trial, Random& random, bool constrained) {
   static const Problem slice = testing::robot1_slice();
   static const Problem sphere = testing::robot2_sphere();
   static const Problem on_sphere = implicit_sphere();
-  std::vector<double>& from = trial.controls[0].x;
+  std::vector<double>& from = trial.controls[0].parameters().x;
   const std::uint64_t kind = random() % 6;
   if (constrained && kind < 3) {
     trial.problem = on_sphere;
@@ -374,8 +376,9 @@ void choose_poses(Trial& trial, Random& random) {
   for (std::size_t k = 0; k < 2; ++k) {
     // Under the law of lengths another length or sign makes another reference, the wrong one.
     if (trial.law == Law::kGeodesic || (trial.has_bad_reference && one_in(random, 4))) length = random_length();
-    trial.controls[k].x = {x[0], x[1], x[2]};
-    for (const double c : turned) trial.controls[k].x.push_back(length * c);
+    PoseNumbers pose = {x[0], x[1], x[2]};
+    for (std::size_t i = 0; i < 4; ++i) pose[3 + i] = length * turned[i];
+    trial.controls[k] = PosePoint{pose};
     for (double& c : x) c += step * 0.1 * trial.size * uniform(random, -1, 1);
     const double angle = one_in(random, 12) ? uniform(random, 0, 2.5) : one_in(random, 8) ? 0 : uniform(random, 0, 0.2);
     turned = product(turned, about(direction(), step * angle));
@@ -389,23 +392,21 @@ void choose_lengths(Trial& trial, Random& random) {
   const Model<double> model = make_model<double>(trial.problem);
   const double error = one_in(random, 2) ? 0 : std::pow(10.0, uniform(random, -9, -3));
   for (std::size_t k = 0; k < 2; ++k) {
-    std::vector<double>& x = trial.controls[k].x;
+    PoseNumbers x = trial.controls[k].pose();
     std::array<double, kCables> wanted = lengths(machine, mixed(x, x, 0.0));
     for (double& length : wanted) length *= 1 + error * uniform(random, -1, 1);
     if (!trial.has_bad_reference) {
       // As a table of lengths is read: the pose to which they lead from that before.
-      const std::vector<double>& from = trial.controls[0].x;
-      const Eigen::Quaterniond q(from[6], from[3], from[4], from[5]);
-      const auto pose = pose_of_lengths(model, wanted, {{from[0], from[1], from[2]}, q.normalized()});
+      const auto pose = pose_of_lengths(model, wanted, taut::rigid_pose(trial.controls[0].pose()));
       if (pose) {
-        x = {pose->p(0), pose->p(1), pose->p(2), pose->q.x(), pose->q.y(), pose->q.z(), pose->q.w()};
+        x = pose_numbers(*pose);
       } else if (k == 0) {
         trial.has_bad_reference = true;  // next to a singular pose nothing near need have these lengths
       } else {
         trial.has_lost_row = true;
       }
     }
-    x.insert(x.end(), wanted.begin(), wanted.end());
+    trial.controls[k] = LengthsPoint{x, wanted};
   }
 }
 
@@ -465,14 +466,16 @@ BigFloat mix(const Trial& trial, const BigFloat& t, F value) {
 
 Vector parameters_at(const Trial& trial, const BigFloat& s) {
   Vector q;
-  const std::size_t m = trial.controls[0].x.size();
-  for (std::size_t j = 0; j < m; ++j) q.push_back(mix(trial, s, [&](const Waypoint& w) { return BigFloat(w.x[j]); }));
+  const std::size_t m = trial.controls[0].parameters().x.size();
+  for (std::size_t j = 0; j < m; ++j)
+    q.push_back(mix(trial, s, [&](const Waypoint& w) { return BigFloat(w.parameters().x[j]); }));
   if (!trial.constraints) return q;
   const std::size_t k = trial.problem.space.constraints.size();
   std::vector<Vector> normals(m);
   for (std::size_t j = 0; j < m; ++j) {
     for (std::size_t i = 0; i < k; ++i) {
-      normals[j].push_back(mix(trial, s, [&](const Waypoint& w) { return BigFloat(w.normals[j * k + i]); }));
+      normals[j].push_back(
+          mix(trial, s, [&](const Waypoint& w) { return BigFloat(w.parameters().normals[j * k + i]); }));
     }
   }
   constexpr int kNewtonSteps = 9;  // doubling some 3 digits
@@ -541,21 +544,20 @@ Motion<S>::Motion(const Trial& trial)
 
 template <class S>
 RigidPose<S> Motion<S>::reference(const S& s) const {
-  if (trial_.law == Law::kGeodesic) return slerp(trial_.controls[0].x, trial_.controls[1].x, s);
+  if (trial_.law == Law::kGeodesic) return slerp(trial_.controls[0].pose(), trial_.controls[1].pose(), s);
   if (trial_.law == Law::kCableLengths) {
-    std::vector<double> from = trial_.controls[0].x;
-    std::vector<double> to = trial_.controls[1].x;
+    PoseNumbers from = trial_.controls[0].pose(), to = trial_.controls[1].pose();
     double begin = 0;
     double end = 1;
     // Straight between the two poses next to s.
     for (const InnerPose& inner : trial_.inner_poses) {
       if (s < S(inner.s)) {
         end = inner.s;
-        to.assign(inner.x.begin(), inner.x.end());
+        to = inner.x;
         break;
       }
       begin = inner.s;
-      from.assign(inner.x.begin(), inner.x.end());
+      from = inner.x;
     }
     return mixed(from, to, S((s - S(begin)) / (S(end) - S(begin))));
   }
@@ -574,7 +576,7 @@ Six<S> Motion<S>::commanded_lengths(const S& s, const Deviation& deviation) cons
   Six<S> result;
   if (trial_.law == Law::kCableLengths) {
     for (std::size_t i = 0; i < kCables; ++i) {
-      result[i] = (S(1.0) - s) * S(trial_.controls[0].x[7 + i]) + s * S(trial_.controls[1].x[7 + i]);
+      result[i] = (S(1.0) - s) * S(trial_.controls[0].lengths_m()[i]) + s * S(trial_.controls[1].lengths_m()[i]);
     }
   } else {
     result = lengths(machine_, reference(s));

@@ -104,10 +104,10 @@ struct ImpliedMove {
     const ConstraintFunctions functions(problem);
     const auto onto = [&](Waypoint point) {
       for (int newton = 0; newton < 8; ++newton) {
-        point.normals = functions.normals(point);
-        point.x = functions.parameters(Segment::straight(point, point), 0);
+        point.parameters().normals = functions.normals(point);
+        point.parameters().x = functions.parameters(Segment::straight(point, point), 0);
       }
-      point.normals = functions.normals(point);
+      point.parameters().normals = functions.normals(point);
       return point;
     };
     const auto some_point = [&] {
@@ -116,12 +116,13 @@ struct ImpliedMove {
     };
     const auto between = [&](const Waypoint& from, const Waypoint& to, double share) {
       Waypoint result = from;
-      for (std::size_t j = 0; j < result.x.size(); ++j) result.x[j] += share * (to.x[j] - from.x[j]);
+      for (std::size_t j = 0; j < result.parameters().x.size(); ++j)
+        result.parameters().x[j] += share * (to.parameters().x[j] - from.parameters().x[j]);
       return result;
     };
     const Waypoint a = some_point(), c = onto(between(a, some_point(), operands.uniform(0.2, 0.5)));
     Waypoint b = between(a, c, operands.uniform(0.3, 0.7));  // not on them, where it is a control point
-    b.normals = functions.normals(b);
+    b.parameters().normals = functions.normals(b);
     path.interpolation = operands.coin(0.5) ? Interpolation::kCubicBSpline : Interpolation::kStraight;
     if (path.interpolation == Interpolation::kStraight) {
       path.waypoints = {a, c};
@@ -139,17 +140,20 @@ struct ImpliedMove {
     Waypoint to = from;
     const double part = by_lengths ? 0.3 : 1;
     const Waypoint far = some_pose(operands);
-    for (std::size_t j = 0; j < to.x.size(); ++j) to.x[j] += part * (far.x[j] - from.x[j]);
+    for (std::size_t j = 0; j < to.parameters().x.size(); ++j)
+      to.parameters().x[j] += part * (far.parameters().x[j] - from.parameters().x[j]);
     for (const Waypoint& corner : {from, to}) {
       const RigidPose pose = rigid_pose(
-          TiltedPose{Vector3<double>(corner.x[0], corner.x[1], corner.x[2]), corner.x[3], corner.x[4], corner.x[5]});
+          TiltedPose{Vector3<double>(corner.parameters().x[0], corner.parameters().x[1], corner.parameters().x[2]),
+                     corner.parameters().x[3], corner.parameters().x[4], corner.parameters().x[5]});
       const double size = operands.uniform(0.5, 2);  // a quaternion may have any
       const Eigen::Vector4d q = size * pose.q.coeffs();
-      Waypoint& waypoint = path.waypoints.emplace_back();
-      waypoint.x = {pose.p(0), pose.p(1), pose.p(2), q(0), q(1), q(2), q(3)};
-      if (!by_lengths) continue;
-      const std::array<double, kCables> lengths = cable_lengths(sampler.model(), pose);
-      waypoint.x.insert(waypoint.x.end(), lengths.begin(), lengths.end());
+      const PoseNumbers x = {pose.p(0), pose.p(1), pose.p(2), q(0), q(1), q(2), q(3)};
+      if (by_lengths) {
+        path.waypoints.emplace_back(LengthsPoint{x, cable_lengths(sampler.model(), pose)});
+      } else {
+        path.waypoints.emplace_back(PosePoint{x});
+      }
     }
   }
 
@@ -173,9 +177,9 @@ struct ImpliedMove {
     const std::size_t k = machine.problem.space.constraints.size();
     BigVector line, normals;
     for (std::size_t j = 0; j < 6; ++j) {
-      line.push_back(mixed(segment, s, [j](const Waypoint& w) { return w.x[j]; }));
+      line.push_back(mixed(segment, s, [j](const Waypoint& w) { return w.parameters().x[j]; }));
       for (std::size_t i = j * k; i < (j + 1) * k; ++i) {
-        normals.push_back(mixed(segment, s, [i](const Waypoint& w) { return w.normals[i]; }));
+        normals.push_back(mixed(segment, s, [i](const Waypoint& w) { return w.parameters().normals[i]; }));
       }
     }
     const auto at_unknowns = [&](const BigVector& y) {
@@ -195,11 +199,11 @@ struct ImpliedMove {
   /// The turn from R0 to R1, as 2 atan(|v| / |c|) about v, of conj(q0) q1 = (v, c).
   [[nodiscard]] oracle::Big6 on_geodesic(const Segment& segment, const BigFloat& s) const {
     const auto vector = [&](std::size_t i) {
-      const auto& x = segment.control[i]->x;
+      const PoseNumbers& x = segment.control[i]->pose();
       return oracle::Big3{BigFloat(x[3]), BigFloat(x[4]), BigFloat(x[5])};
     };
     const oracle::Big3 u0 = vector(0), u1 = vector(1), across = oracle::cross(u0, u1);
-    const BigFloat w0(segment.control[0]->x[6]), w1(segment.control[1]->x[6]);
+    const BigFloat w0(segment.control[0]->pose()[6]), w1(segment.control[1]->pose()[6]);
     BigFloat c = w0 * w1, square(0.0);
     oracle::Big3 v;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -230,7 +234,7 @@ struct ImpliedMove {
     }
     const BigFloat phi = atan2(columns[2][1], columns[2][0]);
     const BigFloat sine = oracle::root(columns[2][0] * columns[2][0] + columns[2][1] * columns[2][1]);
-    const auto p = [&](std::size_t j) { return mixed(segment, s, [j](const Waypoint& x) { return x.x[j]; }); };
+    const auto p = [&](std::size_t j) { return mixed(segment, s, [j](const Waypoint& x) { return x.pose()[j]; }); };
     return {p(0), p(1), p(2), phi, atan2(sine, columns[2][2]), phi + atan2(columns[1][2], -columns[0][2])};
   }
 
@@ -243,7 +247,7 @@ struct ImpliedMove {
         const BigFloat length =
             oracle::distance(oracle::place(pose, oracle::big(machine.problem.robot.platform_anchors_m[i])),
                              oracle::big(machine.problem.robot.base_anchors_m[i]));
-        result.push_back(length - mixed(segment, s, [i](const Waypoint& w) { return w.x[7 + i]; }));
+        result.push_back(length - mixed(segment, s, [i](const Waypoint& w) { return w.lengths_m()[i]; }));
       }
       return result;
     };

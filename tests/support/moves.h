@@ -101,7 +101,7 @@ inline oracle::Big6 pose_on_path(const Path& path, const BigFloat& s) {
   const Segment on = path.segment(static_cast<std::size_t>(segment));
   oracle::Big6 pose;
   for (std::size_t j = 0; j < 6; ++j) {
-    const auto q = [&](std::size_t i) { return BigFloat(on.control[i]->x[j]); };
+    const auto q = [&](std::size_t i) { return BigFloat(on.control[i]->parameters().x[j]); };
     pose[j] = on.law == Interpolation::kStraight ? (BigFloat(1.0) - x) * q(0) + x * q(1)
                                                  : oracle::spline({q(0), q(1), q(2), q(3)}, x);
   }

@@ -72,9 +72,9 @@ inline Space curved_space() {
 /// λ(s) = (1−s) λ_a + s λ_b.
 inline std::vector<BigFloat> parameters_at(const Waypoint& a, const Waypoint& b, const BigFloat& s) {
   std::vector<BigFloat> result;
-  for (std::size_t j = 0; j < a.x.size(); ++j) {
-    const BigFloat from = BigFloat(a.x[j]) + oracle::pi() * BigFloat(a.half_turns[j]);
-    const BigFloat to = BigFloat(b.x[j]) + oracle::pi() * BigFloat(b.half_turns[j]);
+  for (std::size_t j = 0; j < a.parameters().x.size(); ++j) {
+    const BigFloat from = BigFloat(a.parameters().x[j]) + oracle::pi() * BigFloat(a.parameters().half_turns[j]);
+    const BigFloat to = BigFloat(b.parameters().x[j]) + oracle::pi() * BigFloat(b.parameters().half_turns[j]);
     result.push_back((BigFloat(1.0) - s) * from + s * to);
   }
   return result;
@@ -95,10 +95,11 @@ inline RandomSegment random_segment(const Space& space, Operands& operands) {
     if (lower < 0 && operands.pick(16) == 0) x = 0;
     const double y = x + size * operands.uniform(-1, 1) * (upper - lower);
     const int turns = upper > 3 && operands.pick(3) == 0 ? operands.pick(7) - 3 : 0;
-    segment.a.x.push_back(x);
-    segment.b.x.push_back(y);
-    segment.a.half_turns.push_back(turns);
-    segment.b.half_turns.push_back(turns + (upper > 3 && operands.pick(20) == 0 ? operands.pick(3) - 1 : 0));
+    segment.a.parameters().x.push_back(x);
+    segment.b.parameters().x.push_back(y);
+    segment.a.parameters().half_turns.push_back(turns);
+    segment.b.parameters().half_turns.push_back(turns +
+                                                (upper > 3 && operands.pick(20) == 0 ? operands.pick(3) - 1 : 0));
   }
   return segment;
 }
