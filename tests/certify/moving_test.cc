@@ -449,6 +449,66 @@ TEST(Moving, InertiaOverPartsOfTimesIsThatOfEachTime) {
   EXPECT_GT(in_several_parts, 50);
 }
 
+/// Of a move, with these limits of tensions.
+BoxEnclosure<Interval> enclose_with_limits(Problem problem, const Segment& segment, const DyadicBox& box,
+                                           const std::array<std::array<double, 2>, kCables>& limits) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    problem.robot.tension_N[i] = {MovingMachine::exact_text(limits[i][0]), MovingMachine::exact_text(limits[i][1])};
+  }
+  BoxEnclosure<Interval> result;
+  EXPECT_TRUE(run_upward([&] { result = enclose_box(make_proof_model(problem), segment, box); }));
+  return result;
+}
+
+TEST(Moving, TensionsOverPartsOfTimesAreThoseOfEachTime) {
+  Operands operands(59);
+  constexpr int kTrials = 120;
+  std::array<int, 2> narrowed{};  // of moves that may stop, too
+  for (int trial = 0; trial < kTrials; ++trial) {
+    MovingMachine machine(operands);
+    const bool may_stop = trial % 3 == 0;
+    const double stopping_s = 0.5;
+    if (may_stop) machine.problem.time->stopping_time_s = MovingMachine::exact_text(stopping_s);
+    const Path path = some_move(operands, 0.1);
+    const Segment segment = path.segment(static_cast<std::size_t>(operands.pick(static_cast<int>(path.segments()))));
+    const int depth = 2 + operands.pick(4);
+    const DyadicBox box{operands.pick(1 << depth), depth};
+    std::array<std::array<double, 2>, kCables> limits;
+    limits.fill({-1e6, 1e6});
+    const BoxEnclosure<Interval> whole = enclose_with_limits(machine.problem, segment, box, limits);
+    Segment still = segment;
+    still.timing = nullptr;
+    const BoxEnclosure<Interval> at_rest = enclose_with_limits(machine.problem, still, box, limits);
+    if (!at_rest.regular || !whole.regular) continue;
+    // With limits next to what tensions are at rest, parts of the times are asked.
+    for (std::size_t i = 0; i < kCables; ++i) {
+      limits[i] = {at_rest.low[i].range.lower() - 1e-6, at_rest.high[i].range.upper() + 1e-6};
+    }
+    const BoxEnclosure<Interval> parts = enclose_with_limits(machine.problem, segment, box, limits);
+    const auto width = [](const SlopeForm<Interval>& x) { return x.range.upper() - x.range.lower(); };
+    narrowed[may_stop ? 1 : 0] += width(parts.low[0]) < 0.95 * width(whole.low[0]) ? 1 : 0;
+    const PrecisionScope precision(oracle::kMovingBits);
+    const oracle::Move move = oracle_of(path);
+    for (int n = 0; n < 8; ++n) {
+      const double place = operands.uniform(box.lower().approx(), box.upper().approx());
+      const BigFloat t = time_at(*path.timing, BigFloat(static_cast<double>(segment.index)) + BigFloat(place));
+      const double share = may_stop && n % 2 == 0 ? operands.uniform(0, 1) : 1;
+      const double change = may_stop ? operands.uniform(-1, 1) / stopping_s : 0;
+      const Truth true_there = truth(machine, slowed(move, t, BigFloat(share), BigFloat(change)), BigFloat(0.0));
+      const auto is_in = [](const SlopeForm<Interval>& tension, const BigFloat& x) {
+        const double there = x.to_double(MPFR_RNDN), rounding = 1e-12 * (1 + std::abs(there));
+        return tension.range.lower() - rounding <= there && there <= tension.range.upper() + rounding;
+      };
+      for (std::size_t i = 0; i < kCables; ++i) {
+        EXPECT_TRUE(is_in(parts.low[i], true_there.low[i])) << trial;
+        EXPECT_TRUE(is_in(parts.high[i], true_there.high[i])) << trial;
+      }
+    }
+  }
+  EXPECT_GT(narrowed[0], kTrials / 4);
+  EXPECT_GT(narrowed[1], kTrials / 12);
+}
+
 TEST(Moving, ATurnOfThePlatformChangesItsInertiaByNoMoreThanIsSaid) {
   Operands operands(41);
   for (int trial = 0; trial < 200; ++trial) {
