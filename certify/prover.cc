@@ -84,6 +84,13 @@ bool has_joined_pieces(const Segment& segment) {
 
 namespace {
 
+/// Whether the waypoint has what the law reads.
+bool is_of_law(Interpolation law, const Waypoint& waypoint) {
+  const auto& point = waypoint.point();
+  if (law == Interpolation::kCableLengths) return std::holds_alternative<LengthsPoint>(point);
+  return std::holds_alternative<ParameterPoint>(point) != has_poses(law);
+}
+
 /// "px is 1.7, its range is from -1.5 to 1.1 (SI: m, rad)": how a value lies to its range.
 std::string range_text(const Parameter& parameter, double x, const std::array<double, 2>& range) {
   constexpr double kRounding = 1e-14;  // relative: some tens of units in the last place
@@ -98,12 +105,12 @@ std::string range_text(const Parameter& parameter, double x, const std::array<do
 
 bool Prover::is_admissible(const Segment& segment) const {
   const auto is_finite = [](double x) { return std::isfinite(x); };
-  return std::ranges::all_of(segment.controls(),
-                             [&](const Waypoint* waypoint) {
-                               if (!has_poses(segment.law)) return certainly_in_ranges(*waypoint);
-                               return std::ranges::all_of(numbers(*waypoint), is_finite);
-                             }) &&
-         has_joined_pieces(segment);
+  const auto fits = [&](const Waypoint* waypoint) {
+    if (!is_of_law(segment.law, *waypoint)) return false;
+    if (!has_poses(segment.law)) return certainly_in_ranges(*waypoint);
+    return std::ranges::all_of(numbers(*waypoint), is_finite);
+  };
+  return std::ranges::all_of(segment.controls(), fits) && has_joined_pieces(segment);
 }
 
 bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
@@ -121,6 +128,7 @@ std::string Prover::range_violation(const Segment& segment) const {
   if (has_poses(segment.law)) return "";
   const auto& ranges = model().motion.ranges;
   for (const Waypoint* waypoint : segment.controls()) {
+    if (!is_of_law(segment.law, *waypoint)) continue;
     for (std::size_t j = 0; j < std::min(ranges.size(), waypoint->parameters().x.size()); ++j) {
       const double x = waypoint->parameters().x[j];
       if (ranges[j][0] <= x && x <= ranges[j][1]) continue;

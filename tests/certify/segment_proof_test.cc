@@ -100,6 +100,16 @@ TEST(Prover, ProvesASegmentOfLengthZero) {
   EXPECT_EQ(proof.boxes.size(), 1u);
 }
 
+TEST(Prover, ProvesNothingOfWaypointsOfAnotherLaw) {
+  const Prover prover(testing::robot1_slice());
+  const Waypoint parameters{{-2.3, 1.6}, {0, 0}};
+  const Waypoint pose(PosePoint{{0, 0, 0.35, 0, 0, 0.6, 0.8}});
+  const std::array segments = {Segment::straight(pose, pose), Segment::straight(parameters, pose),
+                               Segment::between(Interpolation::kGeodesic, pose, parameters),
+                               Segment::between(Interpolation::kCableLengths, pose, pose)};
+  for (const Segment& segment : segments) EXPECT_EQ(prover.prove(segment).verdict, Verdict::kUndecided);
+}
+
 TEST(Prover, ProvesTheSameBothWays) {
   const Prover prover(robot1_slice());
   EXPECT_EQ(prover.prove(kNearStart, kStart).verdict, Verdict::kProved);

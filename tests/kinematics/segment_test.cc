@@ -61,6 +61,30 @@ TEST(Segment, SplinesJoinWithTwoContinuousDerivativesAndPassTriples) {
   EXPECT_EQ(curve_parameters(path.segment(3), 1), (std::vector<double>{3, -1}));
 }
 
+TEST(Waypoint, IsWhatItsLawSays) {
+  const Waypoint parameters{{1, 2}, {0, 2}};
+  EXPECT_EQ(parameters.parameters().half_turns[1], 2);
+  EXPECT_THROW(static_cast<void>(parameters.pose()), std::bad_variant_access);
+  const std::vector<double> pose = {1, 2, 3, 0, 0, 0.6, 0.8};
+  const Waypoint of_geodesic = waypoint_of(Interpolation::kGeodesic, pose, {});
+  EXPECT_EQ(of_geodesic.pose()[6], 0.8);
+  EXPECT_THROW(static_cast<void>(of_geodesic.parameters()), std::bad_variant_access);
+  EXPECT_THROW(static_cast<void>(of_geodesic.lengths_m()), std::bad_variant_access);
+  EXPECT_THROW(static_cast<void>(waypoint_of(Interpolation::kCableLengths, pose, {})), std::logic_error);
+}
+
+TEST(Waypoint, HasItsNumbersInARow) {
+  std::vector<double> row = {1, 2, 3, 0, 0, 0.6, 0.8, 11, 12, 13, 14, 15, 16};
+  const Waypoint with_lengths = waypoint_of(Interpolation::kCableLengths, row, {});
+  EXPECT_EQ(numbers(with_lengths), row);
+  EXPECT_EQ(with_lengths.lengths_m()[5], 16);
+  EXPECT_EQ(number_count(Interpolation::kCableLengths, 2), 13u);
+  EXPECT_TRUE(half_turns(with_lengths).empty());
+  row.resize(7);
+  EXPECT_EQ(numbers(waypoint_of(Interpolation::kGeodesic, row, {})), row);
+  EXPECT_EQ(numbers(waypoint_of(Interpolation::kStraight, {5, 6}, {0, 1})), (std::vector<double>{5, 6}));
+}
+
 TEST(Path, CountsSegmentsByItsLaw) {
   Path path{{at({0.0}), at({1.0}), at({2.0}), at({3.0})}};
   EXPECT_EQ(path.segments(), 3u);
