@@ -100,7 +100,10 @@ PoseNumbers pose_from_json(const JsonCursor& entry) {
 Waypoint waypoint_from_json(Interpolation law, const JsonCursor& entry) {
   if (has_poses(law)) {
     const PoseNumbers pose = pose_from_json(entry);
-    if (law == Interpolation::kGeodesic) return PosePoint{pose};
+    if (law == Interpolation::kGeodesic) {
+      if (entry.contains("lengths")) entry.at("lengths").fail("no such key under this law");
+      return PosePoint{pose};
+    }
     LengthsPoint point{pose};
     std::ranges::copy(binary64s(entry.at("lengths"), kCables), point.length_m.begin());
     return point;

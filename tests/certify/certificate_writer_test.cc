@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "certificate/certificate_writer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -119,6 +120,20 @@ TEST(CertificateWriter, ReadsBackWithPosesAndTubes) {
     EXPECT_EQ(back.tubes, path.tubes);
     EXPECT_EQ(back.interpolation, law);
   }
+}
+
+TEST(CertificateWriter, LengthsAreNotReadPastUnderALawThatHasNone) {
+  Path path;
+  path.interpolation = Interpolation::kCableLengths;
+  path.waypoints.assign(2, LengthsPoint{{0, 0, 0.35, 0, 0, 0, 1}, {1, 1, 1, 1, 1, 1}});
+  path.pose_tubes = {{0.1, 0.2}};
+  path.inner_poses = {{}};
+  json text = json::parse(certificate_text(elaborate(testing::robot1_slice(), path, {})))["path"];
+  EXPECT_EQ(read_path(text).waypoints, path.waypoints);
+  text["interpolation"] = "geodesic";
+  EXPECT_THAT([&] { static_cast<void>(read_path(text)); },
+              ::testing::Throws<FieldError>(
+                  ::testing::Property(&FieldError::what, ::testing::HasSubstr("no such key under this law"))));
 }
 
 TEST(CertificateWriter, SignsWhatAWholeCertificateIsSignedFor) {
