@@ -173,14 +173,17 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
                     has_poses(law_) ? "the free coordinates, as the law is one of poses" : "the space of the case"),
         {path_});
   }
+  if (has_poses(law_)) return;
   const std::size_t parameters = problem_.space.parameters.size();
   const std::size_t normals = parameters * problem_.space.constraints.size();
   const bool fits = std::ranges::all_of(certificate_->waypoints, [&](const Waypoint& waypoint) {
-    if (has_poses(law_)) return true;
     const ParameterPoint& point = waypoint.parameters();
     return point.x.size() == parameters && point.normals.size() == normals;
   });
-  for (std::size_t k = 0; fits && !has_poses(law_) && k < certificate_->waypoints.size(); ++k) {
+  if (!fits) {
+    throw InputError(path_ + ": path.waypoints: got some of another size, expected those of the space", {path_});
+  }
+  for (std::size_t k = 0; k < certificate_->waypoints.size(); ++k) {
     const std::vector<int>& turns = certificate_->waypoints[k].parameters().half_turns;
     for (std::size_t j = 0; j < turns.size(); ++j) {
       const Parameter& parameter = problem_.space.parameters[j];
@@ -190,9 +193,6 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
                       turns[j], parameter.name),
           {path_});
     }
-  }
-  if (!fits) {
-    throw InputError(path_ + ": path.waypoints: got some of another size, expected those of the space", {path_});
   }
 }
 

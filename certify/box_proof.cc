@@ -359,9 +359,9 @@ struct Inertia {
     at_mid = problem.moving->at(model, segment, mid);
     box.is_slowed_badly = problem.moving->may_stop();
     if (!at_mid) return;
-    const Forms<I, 1> densities = inverse.times(loaded_column(inverse, at_mid->load.wrench));
+    const Forms<I, 1> by_inertia = inverse.times(loaded_column(inverse, at_mid->load.wrench));
     for (std::size_t i = 0; i < kCables; ++i) {
-      const I& density = densities[i][0].at_mid;
+      const I& density = by_inertia[i][0].at_mid;
       const I tension = box.length[i].at_mid * density;
       box.density[i].at_mid = at_rest.density[i].at_mid - density;
       box.low[i].at_mid = at_rest.low[i].at_mid - tension;
@@ -404,7 +404,7 @@ struct Inertia {
   AtRest at_rest{};
 
  private:
-  /// D^-1 w_in over the box.
+  /// D^-1 w_in over the box, at the times that the load is of.
   [[nodiscard]] static std::array<I, kCables> densities(const ProofModel<I>& problem, const InverseBound<I>& inverse,
                                                         const InertialLoad<I>& load) {
     return problem.moving->may_stop() ? by_law(inverse, load.by_law) : by_wrench(inverse, load.wrench);
@@ -415,7 +415,7 @@ struct Inertia {
     for (std::size_t i = 0; i < kCables; ++i) result[i] = densities[i][0].range;
     return result;
   }
-  /// The same from A and B, to which D^-1 is applied before s̈ and ṡ² vary: they vary much where a move is slowed down.
+  /// From A and B, to which D^-1 is applied before s̈ and ṡ² vary: they vary much where a move is slowed down.
   [[nodiscard]] static std::array<I, kCables> by_law(const InverseBound<I>& inverse, const InertiaByLaw<I>& law) {
     const std::array<I, kCables> a = by_wrench(inverse, law.a), b = by_wrench(inverse, law.b);
     std::array<I, kCables> result;

@@ -15,7 +15,7 @@ namespace taut {
 namespace {
 
 constexpr std::size_t kUnknowns = 6;
-constexpr std::size_t kPoseNumbers = 7;
+constexpr std::size_t kPoseNumbers = std::tuple_size_v<PoseNumbers>;
 
 template <class I>
 using Lengths = std::array<SlopeForm<I>, kCables>;
