@@ -27,6 +27,7 @@
 #include "path_io/path_summary.h"
 #include "path_io/waypoint_maker.h"
 #include "planner/move_fit.h"
+#include "problem/rows.h"
 #include "reports/summary/angles.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/illustration.h"
@@ -67,9 +68,10 @@ class TableReader {
     choose_space();
     MoveSource source;
     const MoveFit fit = fitted();
-    source.problem = problem_;
     source.path = fit.path;
     source.table = table(fit);
+    source.table->is_straight = state_rows();
+    source.problem = problem_;
     Sha256 digest;
     digest.update(bytes_);
     source.origin = {excerpt(std::filesystem::path(name_).filename().string()), digest.hex()};
@@ -272,6 +274,24 @@ class TableReader {
     return table;
   }
 
+  /// Where the case says that drives run straight between rows: these are the rows, as far apart and as far off as they
+  /// may be. Whether it does.
+  bool state_rows() {
+    if (!problem_.time->rows) return false;
+    Rational step = 0;
+    for (std::size_t i = 1; i < rows_.size(); ++i) {
+      step = std::max(step, Rational(rows_[i].time_s->rational() - rows_[i - 1].time_s->rational()));
+    }
+    std::array<Rational, kCables> off_m;
+    const Model<double> model = make_model_without_ellipsoid<double>(problem_);
+    for (std::size_t i = 0; i < kCables; ++i) {
+      off_m[i] = Rational(rounding_.position_m) + Rational(rounding_.angle_rad) * Rational(model.p_PB[i].norm()) +
+                 Rational(rounding_.length_m);
+    }
+    problem_.time->rows = rows_between(*problem_.time, step, off_m);
+    return true;
+  }
+
   [[nodiscard]] RowPose::Form row_form() const {
     switch (header_.form) {
       case PathForm::kQuaternion: return RowPose::Form::kQuaternion;
@@ -341,6 +361,11 @@ std::string row_sentence(const FittedTable& table) {
           : fmt::format("All {} lie within {} of this move at their times (at most {}, line {}, and {}, line {}).",
                         rows, table.rounding.text(), millimetres_above(table.position_m.by), table.position_m.line,
                         degrees_above(table.angle_rad.by), table.angle_rad.line);
+  if (table.is_straight) {
+    return fmt::format(
+        "{}{} The move is what is audited, and lengths that run straight from row to row of such a table.", within,
+        zero);
+  }
   return fmt::format(
       "{}{} The move is what is audited: neither the rows' last digits nor how a drive joins the rows are part of it.",
       within, zero);

@@ -33,6 +33,7 @@ struct FittedTable {
   };
   Farthest position_m, angle_rad;  ///< of poses
   Farthest length_m;               ///< of cable lengths
+  bool is_straight = false;        ///< lengths that run straight between the rows are part of the theorem
   std::string angles;  ///< "roll, pitch and yaw": where these were made of quaternions or lengths; else empty
 
   /// The lines of the rows next to a time of the move; one number twice where they are one.

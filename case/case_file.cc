@@ -607,8 +607,9 @@ Case read_case(const Field& root, const std::filesystem::path& folder, const std
   if (const auto planner = map.find("planner")) result.planner = read_planner(*planner, units);
   if (time) {
     check_load_in_time(*time, result.problem.load, is_around_items(map.at("load")), result.warnings);
-    const CaseTime in_time = read_time(*time, units);
+    const CaseTime in_time = read_time(*time, units, map.at("load"));
     result.problem.time = in_time.limits;
+    if (in_time.limits.rows && !result.problem.tolerances) result.problem.tolerances.emplace();
     result.move = in_time.move;
   }
   if (const auto audit = map.find("audit")) result.audit = read_audited_path(*audit, units, time.has_value());

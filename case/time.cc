@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <variant>
 
+#include "problem/rows.h"
+
 namespace taut::case_fields {
 namespace {
 
-constexpr int kGreatestRate_Hz = 10'000;
+constexpr int kUsualRate_Hz = 100, kGreatestRate_Hz = 10'000;
 
 bool is_angular(Dimension dimension) {
   return dimension == Dimension::kAngularSpeed || dimension == Dimension::kAngularAcceleration;
@@ -103,12 +105,37 @@ ExpressionText read_stopping_time(const Field& field, const Units& units) {
   return text_of(field, read_rational(field, units[Dimension::kTime]));
 }
 
-double read_rate(const Field& field) {
+Rational read_rate(const Field& field) {
   const Rational rate = read_rational(field, si_unit(Dimension::kFrequency));
   if (rate <= 0 || rate > kGreatestRate_Hz) {
     field.fail(fmt::format("a rate above zero, and at most {} Hz", kGreatestRate_Hz));
   }
-  return rate.convert_to<double>();
+  return rate;
+}
+
+/// Whether a load has an item of accelerations.
+bool has_acceleration(const Field& load) {
+  const YAML::Node items = load.node().IsMap() ? load.node()["items"] : YAML::Node();
+  return items && items.IsSequence() &&
+         std::any_of(items.begin(), items.end(), [](const YAML::Node& item) { return item["acceleration"]; });
+}
+
+/// Rows of tables with times that are rounded to binary64.
+RowsText read_between_rows(const Field& field, const TimeText& limits, const Rational& rate_Hz, const Field& load) {
+  constexpr const char* kExpected =
+      "'straight': drives run the length of each cable straight from row to row of winches.csv";
+  if (field.text(kExpected) != "straight") field.fail(kExpected);
+  if (!has_acceleration(load)) {
+    field.complain(
+        "got no item 'acceleration' in the load, expected one: lengths that run straight from row to row change their "
+        "speed at each row, and how far that accelerates the load, as the machine follows them, has to be stated");
+  }
+  const Rational rounding = Rational(1) / 1'000'000'000;
+  try {
+    return rows_between(limits, 1 / rate_Hz + rounding, {});
+  } catch (const FieldError& error) {
+    field.complain(fmt::format("got {}, {}", error.seen(), error.expected()));
+  }
 }
 
 bool has_part_without_mass(const LoadText& load) {
@@ -119,8 +146,8 @@ bool has_part_without_mass(const LoadText& load) {
 
 }  // namespace
 
-CaseTime read_time(const Field& field, const Units& units) {
-  const Map map = field.map({"winches", "load", "jerk", "rate", "may_stop"});
+CaseTime read_time(const Field& field, const Units& units, const Field& load_of_case) {
+  const Map map = field.map({"winches", "load", "jerk", "rate", "may_stop", "between_rows"});
   const auto winches = map.find("winches"), load = map.find("load");
   if (!winches && !load) field.complain("got no limit, expected at least one, under 'winches' or 'load'");
   CaseTime result;
@@ -128,7 +155,12 @@ CaseTime read_time(const Field& field, const Units& units) {
   if (load) read_load_rates(*load, units, result.limits);
   if (const auto jerk = map.find("jerk")) result.move.jerk_m_s3 = read_jerk(*jerk, units);
   if (const auto within = map.find("may_stop")) result.limits.stopping_time_s = read_stopping_time(*within, units);
-  if (const auto rate = map.find("rate")) result.move.rate_Hz = read_rate(*rate);
+  Rational rate_Hz = kUsualRate_Hz;
+  if (const auto rate = map.find("rate")) rate_Hz = read_rate(*rate);
+  result.move.rate_Hz = rate_Hz.convert_to<double>();
+  if (const auto rows = map.find("between_rows")) {
+    result.limits.rows = read_between_rows(*rows, result.limits, rate_Hz, load_of_case);
+  }
   return result;
 }
 

@@ -17,7 +17,8 @@ struct CaseTime {
 };
 
 /// Reads `time`. Whether limits are above zero is for validate() to say.
-[[nodiscard]] CaseTime read_time(const Field& field, const Units& units);
+/// @param load  of the same case
+[[nodiscard]] CaseTime read_time(const Field& field, const Units& units, const Field& load);
 
 /// Refuses a load that `time` does not go with. What has no inertia though it may be meant to is added to `warnings`.
 /// @param around_items  whether `load` asks for one ellipsoid instead of its items

@@ -49,6 +49,7 @@ std::string claim_of(Verdict verdict, const json& problem, bool is_move,
   subject.has_time = problem.contains("time");
   subject.is_move = is_move;
   subject.may_stop = subject.has_time && problem["time"].contains("stopping_time_s");
+  subject.has_rows = subject.has_time && problem["time"].contains("rows");
   subject.checks = checked;
   subject.has_meshes = has_meshes(problem);
   subject.has_zones = checked && problem["bodies"].contains("contacts");

@@ -81,9 +81,10 @@ ProofModel<Interval> make_proof_model(const Problem& problem, const std::optiona
 
 namespace {
 
+/// @pre problem.tolerance
 template <class I>
-bool is_length_controlled(const ProofModel<I>& problem, const Segment& segment) {
-  return segment.law == Interpolation::kCableLengths || (problem.tolerance && problem.tolerance->length_controlled);
+Lead lead(const ProofModel<I>& problem, const Segment& segment) {
+  return segment.law == Interpolation::kCableLengths ? Lead::kByAnchors : problem.tolerance->lead;
 }
 
 // One kind of margin each, from what is known over a box. A new kind of margin is a new one of these.
@@ -688,7 +689,7 @@ BoxEnclosure<I> enclose(const ProofModel<I>& problem, const Segment& segment, co
                                       densities.root,
                                       inverse.c(),
                                       inverse.q(),
-                                      is_length_controlled(problem, segment),
+                                      lead(problem, segment),
                                       wrench,
                                       change};
   add_disturbance(problem, undisturbed, continuation_steps, result);

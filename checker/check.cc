@@ -32,8 +32,9 @@ nlohmann::json without_time(nlohmann::json of_case) {
 }
 
 /// The certificate's problem is the case's. In an audit the path is what was asked about: so the case's query does not
-/// matter, nor its space where the path goes through the free coordinates. What a case allows in time does not matter
-/// to an audited path without a law, nor to that no path exists.
+/// matter, nor its space where the path goes through the free coordinates, nor the rows of a table where the
+/// certificate states others. What a case allows in time does not matter to an audited path without a law, nor to that
+/// no path exists.
 /// @returns what of the case was not compared
 std::vector<std::string> require_problem(nlohmann::json problem, nlohmann::json of_case, bool is_no_path) {
   std::vector<std::string> not_compared;
@@ -49,6 +50,11 @@ std::vector<std::string> require_problem(nlohmann::json problem, nlohmann::json 
       const bool has_constraints = !of_case["space"]["constraints"].empty();
       not_compared.emplace_back(has_constraints ? "the case's space with its constraints" : "the case's space");
       problem["space"] = of_case["space"];
+    }
+    const auto has_rows = [](const nlohmann::json& of) { return of.contains("time") && of["time"].contains("rows"); };
+    if (has_rows(problem) && has_rows(of_case) && problem["time"]["rows"] != of_case["time"]["rows"]) {
+      not_compared.emplace_back("the case's rows");
+      problem["time"]["rows"] = of_case["time"]["rows"];
     }
   }
   if (problem != of_case) throw Rejected("the certificate is about another problem");

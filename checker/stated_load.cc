@@ -121,6 +121,14 @@ std::string stated_time(const std::string& certificate) {
   if (time.contains("stopping_time_s")) {
     text += fmt::format("; may be stopped in {} s or more", time["stopping_time_s"].get<std::string>());
   }
+  if (time.contains("rows")) {
+    const Json& rows = time["rows"];
+    std::string errors;
+    for (const Json& error : rows["error_m"]) errors += (errors.empty() ? "" : ", ") + error.get<std::string>();
+    text +=
+        fmt::format("; lengths run straight between rows of a table {} s apart at most, and are off by ({}) m at most",
+                    rows["step_s"].get<std::string>(), errors);
+  }
   return text;
 }
 

@@ -446,10 +446,9 @@ auto Judgement<N>::deviations() const -> std::optional<DeviationBounds<Interval>
   const ToleranceModel<Interval>& tolerance = *problem_.proof.tolerance;
   constexpr bool kItemByItem = true;
   const Vector6<Interval> none = Vector6<Interval>::Constant(Interval(0.0));
-  return disturbance<Interval>(
-      {model_, problem_.proof.item_rows, motion, geometry, lengths, densities, radii, root, inverse_.c(), inverse_.q(),
-       tolerance.length_controlled, model_.wrench, none, kItemByItem},
-      tolerance, kContinuationSteps);
+  return disturbance<Interval>({model_, problem_.proof.item_rows, motion, geometry, lengths, densities, radii, root,
+                                inverse_.c(), inverse_.q(), tolerance.lead, model_.wrench, none, kItemByItem},
+                               tolerance, kContinuationSteps);
 }
 
 /// The bounds of deviations at the midpoint alone, without what the extent of the cell adds to them.

@@ -42,6 +42,16 @@ std::string rounded_up(double x) {
 
 /// What is true between two rows.
 std::string between_rows(const Problem& problem, double rate_Hz) {
+  if (const auto& rows = problem.time->rows; rows && 1 / rate_Hz < ScalarTraits<double>::from_decimal(rows->step_s)) {
+    double most_m = 0;
+    for (const DecimalText& error : rows->error_m) most_m = std::max(most_m, ScalarTraits<double>::from_decimal(error));
+    constexpr double kMillimetres = 1000;
+    return fmt::format(
+        "# What is proved holds, too, for lengths that run straight from row to row: where rows are no farther apart "
+        "than "
+        "{:.6g} s,\n# as the certificate states it, these are off by up to {} mm.\n",
+        ScalarTraits<double>::from_decimal(rows->step_s), rounded_up(kMillimetres * most_m));
+  }
   const TimeLimits limits = make_time_limits(problem);
   const auto error_mm = [&](std::size_t i) {
     constexpr double kMillimetres = 1000;
@@ -70,7 +80,8 @@ std::string between_rows(const Problem& problem, double rate_Hz) {
   }
   return text +
          "# How drives join the rows is no part of the certificate, unless a tolerance of cable lengths "
-         "(tolerances.cable_length)\n# covers it.\n";
+         "(tolerances.cable_length)\n# covers it: it states no rows (time.between_rows) that are as far apart as "
+         "these.\n";
 }
 
 /// What a table's head says of it and of its move.

@@ -9,6 +9,7 @@
 #include "base/input_error.h"
 #include "base/sanitize.h"
 #include "problem/expression.h"
+#include "problem/rows.h"
 
 namespace taut {
 namespace {
@@ -40,6 +41,7 @@ constexpr std::array<Member<WinchLimits>, 3> kOfWinches = {{
 
 constexpr const char* kStoppingTime = "stopping_time_s";
 
+constexpr const char* kRows = "rows";
 bool has_limit(const WinchLimits& limits) {
   return std::ranges::any_of(limits, [](const Limit& limit) { return limit.has_value(); });
 }
@@ -75,6 +77,7 @@ void validate(const TimeText& time) {
     is_limited |= has_limit(limits);
   }
   if (time.stopping_time_s) validate_limit("time.may_stop", *time.stopping_time_s);
+  if (time.rows) validate_rows(time);
   if (!is_limited) throw FieldError("time", "no limit", "expected at least one, of the winches or of the load");
 }
 
@@ -90,6 +93,7 @@ json to_json(const TimeText& time) {
     for (const Limit& limit : limits) list.push_back(limit ? json(*limit) : json());
   }
   if (time.stopping_time_s) result[kStoppingTime] = *time.stopping_time_s;
+  if (time.rows) result[kRows] = {{"error_m", time.rows->error_m}, {"step_s", time.rows->step_s}};
   return result;
 }
 
@@ -115,6 +119,14 @@ TimeText time_from_json(const JsonCursor& value) {
   }
   const bool is_limited = !keys.empty();
   if (is_stated(kStoppingTime)) time.stopping_time_s = value.at(kStoppingTime).text();
+  if (is_stated(kRows)) {
+    const JsonCursor rows = value.at(kRows);
+    rows.expect_keys({"error_m", "step_s"});
+    RowsText& text = time.rows.emplace();
+    text.step_s = rows.at("step_s").text();
+    const std::vector<JsonCursor> errors = rows.at("error_m").elements(kCables);
+    for (std::size_t i = 0; i < kCables; ++i) text.error_m[i] = errors[i].text();
+  }
   value.expect_keys(keys);
   if (!is_limited) value.fail("at least one limit");
   return time;

@@ -140,13 +140,13 @@ struct Origin {
   Square<I> c;                                             ///< C, points
   Square<Upper> c_magnitude, q;                            ///< Y = P C, |P − I| <= q
   Products<I> h, twist;                                    ///< f + m × arm_i; d_i × m
-  Products<I> swing, sweep;                                ///< m × arm_i, m × R b_i; only if held by lengths
+  Products<I> swing, sweep;                                ///< m × arm_i, m × R b_i; only where lengths lead
   std::array<I, kCables> length, density, tension_radius;  ///< |d_i|, λ_i, |Z_i|
   Square<I> gram;                                          ///< Z_r·Z_i
   std::array<Upper, kCables> reach_size, arm_size;         ///< |b_i|, |b_i − p_m| of every deviation
   Upper load_point_size;                                   ///< |p_m|, likewise
-  std::array<Upper, kCables> pull;                         ///< >= |ρ_i|: 0 unless held by lengths
-  bool length_controlled;
+  std::array<Upper, kCables> pull;                         ///< >= |ρ_i|: 0 where the path leads
+  Lead lead;
   Matrix3<I> r_WP;         ///< R
   bool has_items = false;  ///< K is not an ellipsoid alone
   bool has_ellipsoid = true;
@@ -192,7 +192,7 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
   using Upper = UpperOf<I>;
   const Model<I>& model = box.model;
   Origin<I> origin;
-  origin.length_controlled = box.length_controlled;
+  origin.lead = box.lead;
   origin.has_items = !model.loads.empty();
   origin.has_ellipsoid = model.has_ellipsoid;
   for (int i = 0; i < 3; ++i) {
@@ -209,9 +209,10 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
     origin.reach_size[i] = norm_above(model.p_PB[i]) + tolerance.platform_anchor[i];
     origin.arm_size[i] = norm_above(model.p_MB[i]) + tolerance.platform_anchor[i] + tolerance.load_point;
     origin.pull[i] = Upper(0.0);
-    if (!box.length_controlled) continue;
-    const Upper commanded = above(box.length[i].range) + tolerance.cable_length[i];
-    origin.pull[i] = commanded * (tolerance.cable_length[i] + tolerance.base_anchor[i] + tolerance.platform_anchor[i]);
+    if (box.lead == Lead::kPath) continue;
+    Upper off = tolerance.cable_length[i];
+    if (box.lead == Lead::kByAnchors) off += tolerance.base_anchor[i] + tolerance.platform_anchor[i];
+    origin.pull[i] = (above(box.length[i].range) + tolerance.cable_length[i]) * off;
   }
   for (std::size_t r = 0; r < kCables; ++r) {
     std::array<typename ProofScalarTraits<I>::Point, 6> y;
@@ -225,7 +226,7 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
       const std::array<I, 3> twist = cross_exact<I>({y[3], y[4], y[5]}, origin.d[i]);
       origin.h.set(r, i, {origin.c[r][0] + swing[0], origin.c[r][1] + swing[1], origin.c[r][2] + swing[2]});
       origin.twist.set(r, i, {-twist[0], -twist[1], -twist[2]});
-      if (!box.length_controlled) continue;
+      if (box.lead == Lead::kPath) continue;
       origin.swing.set(r, i, swing);
       origin.sweep.set(r, i, cross_exact<I>({y[3], y[4], y[5]}, origin.reach[i]));
     }
@@ -282,7 +283,7 @@ Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& toler
   Upper drift(0.0);  // >= |ṗ_c|
   for (std::size_t r = 0; r < kCables; ++r) {
     for (std::size_t n = 0; n < 3; ++n) moment[r][n] = origin.c_magnitude[r][3 + n] + errors.y[r][3 + n];
-    if (!origin.length_controlled) continue;
+    if (origin.lead == Lead::kPath) continue;
     const Upper moment_size = norm_above<I>(moment[r]);
     std::array<Upper, 3> force;
     for (std::size_t n = 0; n < 3; ++n) force[n] = origin.c_magnitude[r][n] + errors.y[r][n];
@@ -300,7 +301,7 @@ Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& toler
     rate.arm[i].fill(turn * origin.arm_size[i] + tolerance.platform_anchor[i] + tolerance.load_point);
     rate.d[i].fill(reach_rate + tolerance.position + tolerance.base_anchor[i]);
   }
-  if (origin.length_controlled) {
+  if (origin.lead != Lead::kPath) {
     const Table<Upper> swing = product_errors(origin.swing, q, moment, guess.arm);
     const Table<Upper> sweep = product_errors(origin.sweep, q, moment, guess.reach);
     for (std::size_t j = 0; j < kCables; ++j) {
@@ -561,21 +562,22 @@ class States {
 };
 
 /// Bounds of how far a deviation changes |d_i|, wherever the platform is. Where lengths are controlled, the commanded
-/// pose has the lengths L_i + e_i, whatever leads to it, and tracking changes them further.
+/// pose has the lengths L_i + e_i, whatever leads to it, and tracking changes them further; so do anchors that do not
+/// lead.
 template <class I>
 std::array<UpperOf<I>, kCables> length_changes(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance) {
   using Upper = UpperOf<I>;
   std::array<Upper, kCables> result;
   for (std::size_t i = 0; i < kCables; ++i) {
     const Upper reach = norm_above(box.model.p_PB[i]) + tolerance.platform_anchor[i];
-    const Upper own =
-        box.length_controlled ? tolerance.cable_length[i] : tolerance.base_anchor[i] + tolerance.platform_anchor[i];
-    result[i] = tolerance.position + tolerance.orientation * reach + own;
+    result[i] = tolerance.position + tolerance.orientation * reach;
+    if (box.lead != Lead::kPath) result[i] += tolerance.cable_length[i];
+    if (box.lead != Lead::kByAnchors) result[i] += tolerance.base_anchor[i] + tolerance.platform_anchor[i];
   }
   return result;
 }
 
-/// A bound on X of the rate of |d_i|, where lengths are not controlled. A turn at the rate ω changes |d_i| at the rate
+/// A bound on X of the rate of |d_i|, where the path leads. A turn at the rate ω changes |d_i| at the rate
 /// u_i·(ω × R b_i) = ω·(R b_i × u_i), |ω| <= ε, and |R b_i × u_i| <= |b_i|: the lesser of the two bounds counts.
 template <class I>
 UpperOf<I> length_rate(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const OnAll<I>& x, std::size_t i) {
@@ -618,16 +620,19 @@ UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolera
   Upper bound = tolerance.load_point * norm_above(by_load_point) + above(I(length * x.load_rate[r])) +
                 tolerance.position * by_position_size + tolerance.orientation * by_turn_size;
   for (std::size_t i = 0; i < kCables; ++i) {
-    if (origin.length_controlled) {
+    if (origin.lead != Lead::kPath) {
       // c_ri; T turns Ω_c, and R_c p_m to R p_m.
       const I turned = ProofScalarTraits<I>::symmetric(tolerance.orientation * norm_above(x.moment[i]) *
                                                        (by_turn_size + origin.load_point_size * by_position_size));
       const I c = dot(by_position, x.force[i]) + dot(by_turn, x.moment[i]) + turned;
       const Vector3<I> along = scaled(c, x.d[i]);
       const Upper size = above(c) * above(x.length[i]);
-      by_base[i] = by_base[i] + along;
-      by_platform[i] = by_platform[i] - along;
-      bound += tolerance.cable_length[i] * size + tolerance.platform_anchor[i] * tolerance.orientation * size;
+      bound += tolerance.cable_length[i] * size;
+      if (origin.lead == Lead::kByAnchors) {
+        by_base[i] = by_base[i] + along;
+        by_platform[i] = by_platform[i] - along;
+        bound += tolerance.platform_anchor[i] * tolerance.orientation * size;
+      }
     }
     bound += tolerance.base_anchor[i] * norm_above(by_base[i]);
     bound += tolerance.platform_anchor[i] * norm_above(by_platform[i]);
@@ -680,11 +685,13 @@ std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem) {
   if (!problem.tolerances) return std::nullopt;
   const TolerancesText& text = *problem.tolerances;
   const auto decimal = [](const DecimalText& x) { return above(I(ScalarTraits<I>::from_decimal(x))); };
+  const RowsText* const rows = problem.time && problem.time->rows ? &*problem.time->rows : nullptr;
   ToleranceModel<I> model;
   for (std::size_t i = 0; i < kCables; ++i) {
     model.base_anchor[i] = decimal(text.base_anchor_m[i]);
     model.platform_anchor[i] = decimal(text.platform_anchor_m[i]);
     model.cable_length[i] = text.cable_length_m ? decimal((*text.cable_length_m)[i]) : UpperOf<I>(0.0);
+    if (rows) model.cable_length[i] += decimal(rows->error_m[i]);
     model.wrench(static_cast<int>(i)) = ScalarTraits<I>::from_decimal(text.wrench[i]);
   }
   model.load_point = decimal(text.load_point_m);
@@ -694,7 +701,11 @@ std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem) {
   }
   model.position = decimal(text.position_m);
   model.orientation = above(evaluate_constant<I>(text.orientation_rad));
-  model.length_controlled = text.cable_length_m.has_value();
+  if (text.cable_length_m) {
+    model.lead = Lead::kByAnchors;
+  } else if (rows) {
+    model.lead = Lead::kAsTyped;
+  }
   return model;
 }
 
@@ -716,13 +727,13 @@ std::optional<DeviationBounds<I>> disturbance(const UndisturbedBox<I>& box, cons
     const std::optional<OnAll<I>> x = states.enclosed(Upper(share * step), farthest);
     if (!x) return std::nullopt;
     for (std::size_t r = 0; r < kCables; ++r) {
-      if (!box.length_controlled) result.length[r] += Upper(share) * length_rate(origin, tolerance, *x, r);
+      if (box.lead == Lead::kPath) result.length[r] += Upper(share) * length_rate(origin, tolerance, *x, r);
       const std::array<Upper, 2> rate = tension_rates(origin, tolerance, *x, r);
       for (std::size_t side = 0; side < 2; ++side) result.tension[r][side] += Upper(share) * rate[side];
     }
     if (origin.has_items) result.reach = reach_above(origin, *x);  // the last X holds all states
   }
-  if (box.length_controlled) result.length = farthest;
+  if (box.lead != Lead::kPath) result.length = farthest;
   result.position = states.reached().position;
   result.turn = states.reached().turn;
   return result;

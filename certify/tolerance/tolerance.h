@@ -27,15 +27,23 @@
 
 namespace taut {
 
+/// What decides where the platform is, but for tracking.
+enum class Lead {
+  kPath,       ///< the pose that the path has
+  kAsTyped,    ///< lengths near those of the path, which the robot has as it is typed (theory.md, 14, "Rows")
+  kByAnchors,  ///< such lengths on anchors that deviate: a machine that is held by lengths
+};
+
 /// The δ and ε of theory.md, rounded upward.
 template <class I>
 struct ToleranceModel {
   using Upper = UpperOf<I>;
-  std::array<Upper, kCables> base_anchor, platform_anchor, cable_length;  ///< [m]
-  Upper load_point, position;                                             ///< [m]
-  Upper orientation;                                                      ///< ε [rad]
-  Vector6<I> wrench;                                                      ///< ŵ [N, N m]
-  bool length_controlled = false;  ///< under any law; under that of cable lengths all machines are
+  std::array<Upper, kCables> base_anchor, platform_anchor;  ///< [m]
+  std::array<Upper, kCables> cable_length;                  ///< what rows of a table leave open included [m]
+  Upper load_point, position;                               ///< [m]
+  Upper orientation;                                        ///< ε [rad]
+  Vector6<I> wrench;                                        ///< ŵ [N, N m]
+  Lead lead = Lead::kPath;  ///< under laws of poses; under that of cable lengths anchors always lead
 };
 
 /// Nothing where the problem states no tolerances. Where loads are items, those of load point and load have to be 0:
@@ -69,7 +77,7 @@ struct UndisturbedBox {
   const Square<I>& root;                                              ///< rows Z_i of D^-1 L, over T
   const Matrix6<typename ProofScalarTraits<I>::Point>& c;             ///< C
   const Square<UpperOf<I>>& q;                                        ///< D^-1 = P C on T, |P − I| <= Q
-  bool length_controlled;
+  Lead lead;
   const Vector6<I>& wrench;         ///< of the load beside items, and of inertia, in all states [N, N m]
   const Vector6<I>& wrench_change;  ///< by what a deviation may change it, beside ŵ; it contains 0
   bool is_item_by_item = false;     ///< sharper and slower bounds where loads are items, for Interval

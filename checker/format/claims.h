@@ -46,6 +46,22 @@ inline constexpr const char* kMayStopClause =
     "sigma(tau(t)) takes the place of sigma(t), for every tau with a first derivative from 0 to 1 and a second one of "
     "magnitude up to one divided by the stopping time that the problem states.";
 
+/// Follows all that, where the problem states rows.
+inline constexpr const char* kRowsClause =
+    " The lengths that are commanded may be those of a table: of rows from time 0 to the end of the law, of which "
+    "neighbours are no farther apart in time than the stated step h, and which have lengths within e_i - a_i h^2 / 8 "
+    "of "
+    "the d_i that path and law command at their times of the machine as the problem states it, where e_i is the stated "
+    "error of rows and a_i the stated limit of acceleration of d_i; and from row to row they run straight in time. "
+    "They "
+    "are at each time within e_i of the d_i of path and law. All that is claimed of each machine, load and pose within "
+    "the tolerances holds, too, for every error of each length up to e_i. Of a length-controlled machine, it is added "
+    "to what the tolerances allow. Any other deviates within its tolerances from the pose to which these errors lead "
+    "as "
+    "they grow from zero, where the machine as the problem states it has such lengths. Velocities and accelerations "
+    "remain those of path and law: what a table's straight lengths accelerate beside that counts only as far as K "
+    "contains its forces. If the move is run slower, so is the table.";
+
 /// Follows "refuted", and the clause of items, where the path has a law in time.
 inline constexpr const char* kMoveRefutedClause =
     " The path is a move: at each time t from 0 to the end of its law sigma the machine is commanded to be at the "
@@ -227,6 +243,7 @@ struct ClaimSubject {
   bool has_time = false;                        ///< the problem: limits in time
   bool is_move = false;                         ///< the path has a law in time
   bool may_stop = false;                        ///< the problem: a stopping time
+  bool has_rows = false;                        ///< the problem: rows of a table
   std::optional<std::array<bool, 4>> checks{};  ///< where the problem has bodies: which classes of pairs are checked
   bool has_meshes = false, has_zones = false, has_exit_cones = false;  ///< the bodies; zones are `contacts`
 };
@@ -238,6 +255,7 @@ inline std::string claim_text(bool is_proved, const ClaimSubject& of) {
   if (of.is_move) {
     claim += is_proved ? kMoveClause : kMoveRefutedClause;
     if (of.may_stop) claim += is_proved ? kMayStopClause : kSlowedRefutedClause;
+    if (of.has_rows && is_proved) claim += kRowsClause;
   } else if (of.has_time && !is_proved) {
     claim += kAtRestClause;
   }

@@ -3,6 +3,7 @@
 #include "checker/format/parts.h"
 #include "checker/kernel/errors.h"
 #include "checker/kernel/mean_value_form.h"
+#include "checker/kernel/moving.h"
 
 namespace taut::checker {
 namespace {
@@ -72,12 +73,19 @@ void read_time(const Cursor& json, TimeLimits& limits) {
   const auto of_winches = [](std::array<std::optional<Expression>, kCables>& of_each) {
     return [&of_each](const Cursor& here) { read_limits_in_time(here, of_each); };
   };
+  const auto of_rows = [&](const Cursor& here) {
+    Rows& rows = limits.rows.emplace();
+    here.object("error_m", rows.error, "step_s", rows.step);
+    here["step_s"].require(rows.step > 0, "a time above 0");
+  };
   json.object("load_acceleration_m_s2?", of_load(limits.load_acceleration), "load_angular_acceleration_rad_s2?",
               of_load(limits.load_angular_acceleration), "load_angular_speed_rad_s?",
-              of_load(limits.load_angular_speed), "load_speed_m_s?", of_load(limits.load_speed), "stopping_time_s?",
-              of_load(limits.stopping_time), "winch_acceleration_m_s2?", of_winches(limits.winch_acceleration),
-              "winch_power_W?", of_winches(limits.winch_power), "winch_speed_m_s?", of_winches(limits.winch_speed));
-  json.require(json.json().size() > (limits.stopping_time ? 1 : 0), "at least one limit");
+              of_load(limits.load_angular_speed), "load_speed_m_s?", of_load(limits.load_speed), "rows?", of_rows,
+              "stopping_time_s?", of_load(limits.stopping_time), "winch_acceleration_m_s2?",
+              of_winches(limits.winch_acceleration), "winch_power_W?", of_winches(limits.winch_power),
+              "winch_speed_m_s?", of_winches(limits.winch_speed));
+  const std::size_t others = (limits.rows ? 1 : 0) + (limits.stopping_time ? 1 : 0);
+  json.require(json.json().size() > others, "at least one limit");
 }
 
 void require_tolerance(const Cursor& json, const mpq_class& x) { json.require(x >= 0, "a tolerance >= 0"); }
@@ -251,6 +259,13 @@ Problem read_problem(const Cursor& json) {
       [&](const Cursor& query) { read_query(query, problem); }, "time?",
       [&](const Cursor& time) { read_time(time, problem.time.emplace()); });
   if (!problem.time) require_no_inertia_box(json["load"]);
+  try {
+    const WorkingPrecision precision(128);
+    require_rows(problem);
+  } catch (const Rejected& why) {
+    const Cursor time = json["time"];
+    time["rows"].fail(std::string("rows whose errors follow from limits, not ") + why.what());
+  }
   if (problem.tolerances && !problem.items.empty()) {
     require_no_tolerance_of_load(json["tolerances"], *problem.tolerances);
   }

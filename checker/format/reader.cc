@@ -225,7 +225,8 @@ class Reader {
     ClaimSubject subject{.has_items = !problem.items.empty(),
                          .has_time = problem.time.has_value(),
                          .is_move = top_["path"].has("timing"),
-                         .may_stop = problem.time && problem.time->stopping_time};
+                         .may_stop = problem.time && problem.time->stopping_time,
+                         .has_rows = problem.time && problem.time->rows};
     if (problem.bodies) {
       subject.checks = problem.bodies->checks;
       subject.has_meshes = problem.bodies->has_meshes();

@@ -72,11 +72,13 @@ class Family {
   Family(const Machine& machine, const Geometry& geometry, const Inverse& inverse, bool length_controlled,
          const Vector6<Ball>& wrench, const Vector6<Ball>& wrench_tolerance)
       : machine_(machine),
-        length_controlled_(length_controlled),
+        lengths_lead_(length_controlled || machine.row_errors),
+        anchors_lead_(length_controlled),
         whole_(bounds(*machine.tolerances)),
         wrench_(wrench),
         wrench_tolerance_(wrench_tolerance) {
     if (whole_.cable_length) e_ = *whole_.cable_length;
+    for (std::size_t i = 0; i < 6 && machine.row_errors; ++i) e_[i] = e_[i] + Bound((*machine.row_errors)[i]);
     const Matrix3<Ball> R = range(geometry.pose.R);
     for (std::size_t i = 0; i < 6; ++i) {
       start_.d[i] = range(geometry.d[i]);
@@ -85,8 +87,7 @@ class Family {
       length_start_[i] = geometry.length[i].range();
       b_size_[i] = length_bound(machine.platform[i]) + whole_.platform_anchors[i];
       r_size_[i] = length_bound(machine.arms[i]) + whole_.platform_anchors[i] + whole_.load_point;
-      if (!length_controlled) continue;
-      rho_[i] = (Bound(length_start_[i]) + e_[i]) * (e_[i] + whole_.base_anchors[i] + whole_.platform_anchors[i]);
+      if (lengths_lead_) rho_[i] = (Bound(length_start_[i]) + e_[i]) * (anchors_lead_ ? e_[i] + ends(i) : e_[i]);
     }
     start_.Rp_m = multiply(R, machine.load_point);
     start_.R = R;
@@ -153,7 +154,10 @@ class Family {
     return result;
   }
 
-  /// Of the rate of |d_i|, of a machine that is not length-controlled.
+  /// Whether the pose follows lengths of cables.
+  [[nodiscard]] bool lengths_lead() const { return lengths_lead_; }
+
+  /// Of the rate of |d_i|, where no lengths lead.
   [[nodiscard]] Bound length_rate(std::size_t i) const {
     const Bound lever = smaller(length_bound(cross(now_.Rb[i], u_[i])), b_size_[i]);
     return whole_.position + whole_.orientation * lever + whole_.base_anchors[i] + whole_.platform_anchors[i];
@@ -165,7 +169,7 @@ class Family {
   /// Of the rates of the commanded pose.
   [[nodiscard]] PoseRate commanded_pose_rate() const {
     PoseRate rate;
-    for (std::size_t j = 0; j < 6 && length_controlled_; ++j) {
+    for (std::size_t j = 0; j < 6 && lengths_lead_; ++j) {
       const Split y(now_.Y[j]);
       rate.position.add_product(rho_[j], length_bound(y.f - cross(y.m, now_.Rp_m)));
       rate.turn.add_product(rho_[j], length_bound(y.m));
@@ -173,20 +177,22 @@ class Family {
     return rate;
   }
 
-  /// Of the change of |d_i| where that is L_i + e_i at the commanded pose, whatever leads there. Tracking is added to
-  /// the whole deviation, not part by part.
-  [[nodiscard]] Bound controlled_length_loss(std::size_t i) const {
-    return e_[i] + whole_.position + whole_.orientation * b_size_[i];
+  /// Of the change of |d_i| where that is L_i + e_i at the commanded pose, whatever leads there, if not on anchors that
+  /// deviate. Tracking is added to the whole deviation, not part by part.
+  [[nodiscard]] Bound led_length_loss(std::size_t i) const {
+    return own_length_loss(i) + whole_.position + whole_.orientation * b_size_[i];
   }
 
  private:
+  [[nodiscard]] Bound ends(std::size_t i) const { return whole_.base_anchors[i] + whole_.platform_anchors[i]; }
+  /// Without tracking.
+  [[nodiscard]] Bound own_length_loss(std::size_t i) const { return anchors_lead_ ? e_[i] : e_[i] + ends(i); }
+
   /// What is there up to the part `until` of the way, if all stays within `moves`.
   void set(const Moves& moves, const Bound& until) {
     for_each([](Ball& x, const Ball& start, const Bound& move) { x = plus_minus(start, move); }, now_, start_, moves);
     for (std::size_t i = 0; i < 6; ++i) {
-      const Bound change = length_controlled_ ? e_[i] : whole_.base_anchors[i] + whole_.platform_anchors[i];
-      const Bound tracked = whole_.position + whole_.orientation * b_size_[i];
-      length_[i] = plus_minus(length_start_[i], until * (change + tracked));
+      length_[i] = plus_minus(length_start_[i], until * led_length_loss(i));
       if (!certainly_positive(length_[i])) throw Undefined("a cable may have no length");
     }
     for (std::size_t i = 0; i < 6; ++i) {
@@ -216,7 +222,7 @@ class Family {
       for (std::size_t r = 0; r < 6; ++r) {
         YD[r][i] = length_bound(h_[r][i]) * d_alone + length_bound(q_[r][i]) * r_alone;
       }
-      for (std::size_t j = 0; j < 6 && length_controlled_; ++j) {
+      for (std::size_t j = 0; j < 6 && lengths_lead_; ++j) {
         const Vector3<Ball> sweep = cross(Split(now_.Y[j]).m, now_.Rb[i]);
         for (std::size_t c = 0; c < 3; ++c) {
           rate.d[i][c].add_product(rho_[j], Bound(h_[j][i][c]));
@@ -289,7 +295,7 @@ class Family {
                  whole_.load_point * length_bound(combination(pull, q_[r])) +
                  Bound(length_[r] * dot(now_.Y[r], wrench_tolerance_));
     for (std::size_t i = 0; i < 6; ++i) {
-      if (i != r && !length_controlled_) {
+      if (i != r && !lengths_lead_) {
         const Bound size(pull[i]);
         rate.add_product(whole_.base_anchors[i], size * row.h_size[i]);
         rate.add_product(whole_.platform_anchors[i], size * row.hq_size[i]);
@@ -301,13 +307,15 @@ class Family {
         of_base = of_base - own;
         of_platform = of_platform + own;
       }
-      if (length_controlled_) {
+      if (lengths_lead_) {
         const Split y(now_.Y[i]);
         // The angle turns W, by which Q + R p_m x P is multiplied, and p_m of the commanded pose.
         const Bound turning = whole_.orientation * length_bound(y.m) * (turn_size + Rp_m_size_ * P_size);
         const Ball of_rho = plus_minus(dot(P, y.f) + dot(Q, y.m), turning);
-        of_base = of_base + of_rho * now_.d[i];
-        of_platform = of_platform - of_rho * widened(now_.d[i], whole_.orientation * Bound(length_[i]));
+        if (anchors_lead_) {
+          of_base = of_base + of_rho * now_.d[i];
+          of_platform = of_platform - of_rho * widened(now_.d[i], whole_.orientation * Bound(length_[i]));
+        }
         rate.add_product(e_[i], Bound(length_[i]) * Bound(of_rho));
       }
       rate.add_product(whole_.base_anchors[i], length_bound(of_base));
@@ -317,7 +325,7 @@ class Family {
   }
 
   const Machine& machine_;
-  bool length_controlled_;
+  bool lengths_lead_, anchors_lead_;
   Tolerances<Bound, Bound> whole_;  ///< at t = 1, but for the wrench's
   const Vector6<Ball>&wrench_, &wrench_tolerance_;
   Vector6<Ball> length_start_;
@@ -370,7 +378,7 @@ MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const I
     position.add_product(share, rate.position);
     turn.add_product(share, rate.turn);
     for (std::size_t i = 0; i < 6; ++i) {
-      if (!length_controlled) length[i].add_product(share, family.length_rate(i));
+      if (!family.lengths_lead()) length[i].add_product(share, family.length_rate(i));
       const Family::TensionRates rates = family.tension_rates(i);
       for (std::size_t side = 0; side < 2; ++side) tension[i][side].add_product(share, rates.extreme[side]);
       nominal[i].add_product(share, rates.nominal);
@@ -378,7 +386,7 @@ MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const I
   });
   MarginLoss result;
   for (std::size_t i = 0; i < 6; ++i) {
-    result.length[i] = (length_controlled ? family.controlled_length_loss(i) : length[i]).ball();
+    result.length[i] = (family.lengths_lead() ? family.led_length_loss(i) : length[i]).ball();
     const auto& [least, most] = tension[i];
     result.tension[i] = {least.ball(), most.ball()};
     // Of the ellipsoid alone the two extremes differ by 2 v, which changes by no more than the sum of their changes.

@@ -38,9 +38,13 @@
 // where Q_r is the one of a rotation about P_m; a coefficient's length times the tolerance bounds what that deviation
 // does. Where lengths are controlled, rho_j adds to it P_r . f_j + Q_r . m_j, up to what tracking turns.
 //
+// Rows of a table (TimeLimits::rows) let lengths be off by more, e_i. Where lengths are not controlled, they lead to
+// the pose that the stated robot has with lengths L_i + e_i, which is then the commanded one: rho_j = |d_j| e_j' alone,
+// and anchors deviate where they are. That robot at that pose is among the deviations: it is the one without others.
+//
 // The length |d_i| of a cable changes at the rate u_i . d_i', by no more than |p'| + min(|W x R b_i . u_i|, |W||b_i|) +
-// ... Where lengths are controlled, it is L_i + e_i at the commanded pose of the whole deviation, from which tracking
-// then takes it by no more than the distance and the angle times |b_i'|.
+// ... Where lengths lead, it is L_i + e_i at the commanded pose of the whole deviation, from which tracking then takes
+// it by no more than the distance and the angle times |b_i'|, and anchors that do not lead by their tolerances.
 //
 // In a move, w0 is less than stated by the inertia w_in of the commanded motion, and a deviating machine's differs from
 // that by an e in E, which the turn of its pose bounds (moving.h). The family has the load w - w_in - t e then, so that

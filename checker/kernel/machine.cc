@@ -107,6 +107,7 @@ Machine::Machine(const Problem& problem) {
     length_limits[i] = {Ball(problem.length[i].lower), Ball(problem.length[i].upper)};
   }
   if (problem.tolerances) tolerances = enclosed(*problem.tolerances);
+  if (problem.time && problem.time->rows) row_errors = balls(problem.time->rows->error);
   if (problem.bodies) bodies.emplace(problem);
 }
 

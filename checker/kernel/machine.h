@@ -87,6 +87,7 @@ struct Machine {
   std::array<std::array<Ball, 2>, 6> tension_limits;
   std::array<std::array<Ball, 2>, 6> length_limits;
   std::optional<Tolerances<Ball, Ball>> tolerances;
+  std::optional<Vector6<Ball>> row_errors;  ///< of lengths that run straight from row to row
   std::optional<PlacedBodies> bodies;
 
   /// @throws Undefined where a cable may have no length.

@@ -233,6 +233,18 @@ void require_time_law(const Path& path) {
   }
 }
 
+void require_rows(const Problem& problem) {
+  if (!problem.time || !problem.time->rows) return;
+  const auto& [step, error] = *problem.time->rows;
+  if (!problem.tolerances) throw Rejected("rows of a table without tolerances");
+  for (std::size_t i = 0; i < kCables; ++i) {
+    if (!problem.time->winch_acceleration[i]) throw Rejected("rows of a table without limits of all accelerations");
+    const Ball room = Ball(mpq_class(8 * error[i])) -
+                      rate_limit(problem, RateKind::kWinchAcceleration, i) * Ball(mpq_class(step * step));
+    if (!certainly_positive(room)) throw Rejected("rows of a table too far apart for their errors");
+  }
+}
+
 namespace {
 
 /// No magnitude of a speed is above these while the move is run as its law says, or slower.

@@ -23,6 +23,9 @@
 // (u, v), and speeds rise with u: what keeps its limits at the four corners of (u, v) keeps them inside, as limits are
 // intervals and magnitudes convex.
 //
+// Where the problem states rows of a table, lengths may run straight from row to row: the machine that holds such
+// lengths deviates from the path by errors of lengths (deviation.h). Run slower, it does so at the place τ(t) of them.
+//
 // At such a time, a witness may state τ' and τ'' itself.
 //
 // Bodies of the load, each of mass m with its centre of gravity c and with a diagonal inertia I about it in the axes of
@@ -69,6 +72,12 @@ struct Moving {
 /// that σ' = σ'' = 0 wherever σ is that number, or, at the ends of a spline, three control points are, with their
 /// normals. @pre path.timing @throws Rejected
 void require_time_law(const Path& path);
+
+/// Asks of the rows of a table, if the problem states them, that each error is above a step^2/8, where a is the limit
+/// of that winch's acceleration: the commanded length has a derivative by time that changes at less than a, so that it
+/// is no farther than that from its chord over a time of at most `step`. The rest is for rows that are rounded.
+/// And that there are tolerances, if all 0, as deviations are looked at only then. @throws Rejected
+void require_rows(const Problem& problem);
 
 /// Over a box of segment k, at every time at which the move is there, run as its law says or slowed down. @throws
 /// Undefined where that is not proved. @pre require_time_law(), and the problem has limits in time; for a `slowing`, a

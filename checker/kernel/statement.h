@@ -234,6 +234,12 @@ inline bool is_of_winch(RateKind kind) {
   return kind == RateKind::kWinchSpeed || kind == RateKind::kWinchAcceleration || kind == RateKind::kWinchPower;
 }
 
+/// Rows of a table of lengths, between which these run straight: no two rows are farther apart in time than `step`.
+struct Rows {
+  mpq_class step;                        ///< above 0 [s]
+  std::array<mpq_class, kCables> error;  ///< how far such lengths may be from those of path and law [m]
+};
+
 /// Limits of what a move does in time: constants above 0, if they are stated. Speeds [m/s, rad/s] and accelerations
 /// [m/s^2, rad/s^2] of the commanded lengths |d_i|, of the load point, and of the platform's rotation.
 struct TimeLimits {
@@ -241,6 +247,7 @@ struct TimeLimits {
   std::array<std::optional<Expression>, kCables> winch_power;  ///< of a cable's greatest tension times its speed [W]
   std::optional<Expression> load_speed, load_acceleration, load_angular_speed, load_angular_acceleration;
   std::optional<Expression> stopping_time;  ///< above 0; no limit of a rate, see moving.h [s]
+  std::optional<Rows> rows;                 ///< likewise
 
   /// @param cable  of winches
   [[nodiscard]] const std::optional<Expression>& of(RateKind kind, std::size_t cable) const {
@@ -386,7 +393,7 @@ inline bool is_implied(const Problem& problem, const Path& path) {
   return path.law == Law::kCableLengths || !problem.constraints.empty();
 }
 
-/// Whether the lengths of the cables are what a controller commands, not the pose.
+/// Whether the lengths of the cables are what a controller commands, not the pose: anchors that deviate move it.
 inline bool is_length_controlled(const Problem& problem, const Path& path) {
   return path.law == Law::kCableLengths || (problem.tolerances && problem.tolerances->cable_length);
 }

@@ -331,10 +331,11 @@ std::string table_text(const ReportContext& scene) {
   if (!table || !scene.certificate.source || !scene.certificate.path.timing) return "";
   return fmt::format(
       "The move was fitted to the table {}: all {} of its rows lie within {} of {} at their times, says the program "
-      "that "
-      "fitted it; the checker is not told of rows. The rows' last digits, and how a drive joins the rows, are no part "
-      "of the move.",
-      audited_file(scene), table->rows, table->rounding, table->is_of_lengths ? "its cable lengths" : "it");
+      "that fitted it; the checker is not told of rows. {}",
+      audited_file(scene), table->rows, table->rounding, table->is_of_lengths ? "its cable lengths" : "it",
+      scene.certificate.problem.time->rows
+          ? "Lengths that run straight from row to row of such a table are among those that the verdict is about."
+          : "The rows' last digits, and how a drive joins the rows, are no part of the move.");
 }
 
 }  // namespace taut

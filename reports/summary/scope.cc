@@ -77,7 +77,14 @@ ScopeItem speed(const Problem& problem, bool is_in_time) {
 }
 
 /// Who has to follow a move, and how well.
-ScopeItem drives(bool has_tolerances) {
+ScopeItem drives(bool has_tolerances, bool has_rows) {
+  if (has_rows) {
+    return {"control", "drives that run lengths straight between the rows of the move's table",
+            "The drives follow the move in time, as its law states, or a table of it, between whose rows they run the "
+            "lengths of cables straight, within the stated tolerances. A machine that deviates so has the commanded "
+            "velocities and accelerations; what it is accelerated beside them at the rows is within the stated loads.",
+            ""};
+  }
   return {
       "control", "drives that keep to the commanded times, speeds and accelerations",
       std::string("The drives follow the move in time, as its law states") +
@@ -166,7 +173,7 @@ std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law, bool i
                             "The limits and the shape of the set of loads are exactly as stated.")
                      : item("machine", "the machine exactly as stated, without tolerances",
                             "Anchors, limits and loads are exactly the stated numbers."),
-      is_in_time ? drives(has_tolerances)
+      is_in_time ? drives(has_tolerances, problem.time->rows.has_value())
       : is_held  ? item("control", "winches that hold the lengths that the path asks for",
                         "The winches hold the lengths that the path asks for, between waypoints too" + exactness)
                  : item("control", "a controller that follows the path",
@@ -215,10 +222,19 @@ std::vector<ScopeItem> not_covered(const Problem& problem, bool is_in_time) {
   };
   if (is_in_time) {
     const auto at = std::ranges::find(result, std::string_view("errors"), &ScopeItem::key);
-    result.insert(at + 1, {"drives", "errors of drives in speed and acceleration, and between the rows of a table",
-                           "Errors with which drives keep to speeds and accelerations; how they move between the rows "
-                           "of a table.",
-                           "The drives keep to the commanded speeds and accelerations, between rows of tables too."});
+    if (problem.time->rows) {
+      result.insert(at + 1,
+                    {"drives", "errors of drives in speed and acceleration beyond the stated loads",
+                     "Errors with which drives keep to speeds and accelerations, the jumps of speed at the rows "
+                     "of a table among them, beyond the set of loads; their power at other speeds than those of "
+                     "path and law.",
+                     "What drives and jumps of speed at rows add to accelerations is within the stated loads."});
+    } else {
+      result.insert(at + 1, {"drives", "errors of drives in speed and acceleration, and between the rows of a table",
+                             "Errors with which drives keep to speeds and accelerations; how they move between the "
+                             "rows of a table.",
+                             "The drives keep to the commanded speeds and accelerations, between rows of tables too."});
+    }
   }
   return result;
 }

@@ -392,7 +392,7 @@ std::string tolerances_text(const std::optional<TolerancesText>& tolerances, con
                         ? "the winches hold the cables' lengths exactly"
                         : "cable lengths " + largest(*t.cable_length_m, units) + ", held by the winches");
   }
-  if (items.empty()) return "Stated, and all zero.";
+  if (items.empty()) return "All are zero.";
   return fmt::format("Up to, in any direction and all at once: {}.", listed(items));
 }
 

@@ -137,7 +137,20 @@ std::string time_limits_text(const TimeText& time, const DisplayUnits& units) {
             ? *time.stopping_time_s
             : fmt::format("{:.6g}", evaluate_constant<double>(*time.stopping_time_s)));
   }
+  if (time.rows) {
+    const double step_s = ScalarTraits<double>::from_decimal(time.rows->step_s);
+    text += fmt::format(
+        " Drives may run lengths straight between the rows of a table, {:.6g} s apart, and be up to {} off by that.",
+        step_s, row_error_text(*time.rows));
+  }
   return text;
+}
+
+std::string row_error_text(const RowsText& rows) {
+  double most_m = 0;
+  for (const DecimalText& error : rows.error_m) most_m = std::max(most_m, ScalarTraits<double>::from_decimal(error));
+  constexpr int kDigits = 3;
+  return DisplayUnits().length.up(most_m, kDigits) + " mm";
 }
 
 std::string inertia_text(const LoadText& load) {

@@ -20,6 +20,9 @@ namespace taut {
 
 /// "In time: winches: speed below 1 m/s, acceleration below 0.5 m/s²; the load point: ….": exactly, in people's units.
 [[nodiscard]] std::string time_limits_text(const TimeText& time, const DisplayUnits& units);
+
+/// "0.00626 mm", rounded up: by how much straight lengths between rows may be off, at most.
+[[nodiscard]] std::string row_error_text(const RowsText& rows);
 /// Which weights are boxes and which are points for their inertia, by name. @pre some item is a weight
 [[nodiscard]] std::string inertia_text(const LoadText& load);
 

@@ -1291,6 +1291,10 @@ def proved_move(pr, pa, boxes, below=0.95, above=1.06, adds_limits=True):
     seen = list(seen_of(pr, pa))
     if adds_limits:
         pr = dict(pr, time=dict(limits_of(seen, above), **pr['time']))
+    if 'rows' in pr['time']:
+        rows = pr['time']['rows']
+        sag = [float(a) * float(rows['step_s'])**2 / 8 for a in pr['time']['winch_acceleration_m_s2']]
+        pr['time']['rows'] = dict(rows, error_m=['%.6e' % (1.01 * x + 1e-9) for x in sag])
     count = len(pa['waypoints']) - control_points(pa) + 1
     least = [[math.inf, math.inf] for _ in range(count)]
     for z, at, tensions in seen:
@@ -1330,6 +1334,8 @@ def moves():
     less = {key: LESS[key] for key in ('base_anchor_m', 'platform_anchor_m', 'position_m', 'orientation_rad')}
     held = with_tolerances(lifted('robot2-held-move', typed(a, b)), **less, cable_length_m=['0.0005'] * 6)
     yield 'move_held_by_lengths', proved_move(held, curved, 16, below=0.94)
+    off = with_tolerances(lifted('robot2-rows', typed(a, b), rows={'step_s': '0.05'}), **less)
+    yield 'move_between_rows', proved_move(off, curved, 16, below=0.94)
 
     quick = dict(on_sphere_path, timing=law(2**-5, [0, 4], 12))
     fast = dict(ball, time={'winch_acceleration_m_s2': limits_of(seen_of(ball, quick, 1), 0.75)[

@@ -34,10 +34,11 @@ def bodies_clause(verdict, bodies):
         (text_of('kExitConesClause') if 'exit_cones' in bodies else ''))
 
 
-def time_clause(verdict, has_law, may_stop):
+def time_clause(verdict, has_law, may_stop, has_rows):
     """What follows a claim where the problem has limits in time."""
     if verdict == 'proved':
-        return (text_of('kMoveClause') + (text_of('kMayStopClause') if may_stop else '')) if has_law else ''
+        clauses = ['kMoveClause'] + ['kMayStopClause'] * may_stop + ['kRowsClause'] * has_rows
+        return ''.join(map(text_of, clauses)) if has_law else ''
     if not has_law:
         return text_of('kAtRestClause')
     return text_of('kMoveRefutedClause') + (text_of('kSlowedRefutedClause') if may_stop else '')
@@ -89,7 +90,9 @@ def seal(certificate, keep=()):
         has_items = c['verdict'] != 'undecided' and 'items' in c['problem']['load']
         c['claim'] = CLAIMS[c['verdict']] + (ITEMS_CLAUSE if has_items else '')
         if c['verdict'] != 'undecided' and 'time' in c['problem']:
-            c['claim'] += time_clause(c['verdict'], 'timing' in c['path'], 'stopping_time_s' in c['problem']['time'])
+            stated = c['problem']['time']
+            c['claim'] += time_clause(c['verdict'], 'timing' in c['path'], 'stopping_time_s' in stated,
+                                      'rows' in stated)
         bodies = c['problem'].get('bodies')
         if c['verdict'] != 'undecided' and isinstance(bodies, dict) and isinstance(bodies.get('clearance_m'), dict):
             c['claim'] += bodies_clause(c['verdict'], bodies)

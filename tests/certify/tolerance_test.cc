@@ -36,6 +36,8 @@ Vector3<double> random_in_ball(std::mt19937& random, double radius, bool at_the_
 
 double number(const std::string& text) { return ScalarTraits<double>::from_decimal(text); }
 
+bool has_rows(const Problem& problem) { return problem.time && problem.time->rows; }
+
 Deviated random_deviation(const Problem& problem, std::mt19937& random) {
   const TolerancesText& t = *problem.tolerances;
   Deviated result{make_model<double>(problem)};
@@ -48,7 +50,9 @@ Deviated random_deviation(const Problem& problem, std::mt19937& random) {
     result.model.p_WA[i] += random_in_ball(random, number(t.base_anchor_m[i]), rim);
     result.model.p_PB[i] += random_in_ball(random, number(t.platform_anchor_m[i]), rim);
     result.model.p_MB[i] = result.model.p_PB[i] - result.model.p_PM;
-    if (t.cable_length_m) result.length_error[i] = pick(number((*t.cable_length_m)[i]));
+    double length = t.cable_length_m ? number((*t.cable_length_m)[i]) : 0;
+    if (has_rows(problem)) length += number(problem.time->rows->error_m[i]);
+    result.length_error[i] = pick(length);
   }
   const double load = pick(1.0);
   for (int k = 0; k < 6; ++k) result.model.wrench(k) += load * number(t.wrench[static_cast<std::size_t>(k)]);
@@ -60,10 +64,12 @@ Deviated random_deviation(const Problem& problem, std::mt19937& random) {
 /// The pose that a deviation leads to from the commanded one.
 RigidPose deviated_pose(const Problem& problem, const Deviated& deviated, const RigidPose& undisturbed) {
   RigidPose pose = undisturbed;
-  if (problem.tolerances->cable_length_m) {
-    std::array<double, kCables> wanted = cable_lengths(make_model<double>(problem), undisturbed);
+  const bool is_held = problem.tolerances->cable_length_m.has_value();
+  if (is_held || has_rows(problem)) {
+    const Model<double> typed = make_model<double>(problem);
+    std::array<double, kCables> wanted = cable_lengths(typed, undisturbed);
     for (std::size_t i = 0; i < kCables; ++i) wanted[i] += deviated.length_error[i];
-    const auto held = pose_of_lengths(deviated.model, wanted, undisturbed);
+    const auto held = pose_of_lengths(is_held ? deviated.model : typed, wanted, undisturbed);
     EXPECT_TRUE(held.has_value());
     pose = *held;
   }
@@ -92,6 +98,14 @@ void update(Least& least, const Model<double>& model, const RigidPose& pose) {
 
 using Edit = std::function<void(TolerancesText&)>;
 
+/// Lets lengths run straight between rows.
+void run_straight(Problem& problem) {
+  TimeText& time = problem.time.emplace();
+  time.winch_acceleration_m_s2.fill("1");
+  problem.load.items = {{"of a mass without weight", Weight{"1", "1", {"0", "0", "0"}, "0", std::nullopt}}};
+  time.rows = RowsText{"0.001", {"0.0003", "0.0002", "0.0003", "0.0003", "0.0001", "0.0003"}};
+}
+
 /// One kind alone, or all together, of sizes that matter.
 const std::vector<std::pair<const char*, Edit>>& kinds() {
   static const std::vector<std::pair<const char*, Edit>> kKinds = {
@@ -107,6 +121,19 @@ const std::vector<std::pair<const char*, Edit>>& kinds() {
        [](TolerancesText& t) {
          t.cable_length_m = {"0", "0", "0", "0", "0", "0"};
          t.base_anchor_m.fill("0.0001");
+         t.platform_anchor_m.fill("0.0001");
+       }},
+      {"rows", [](TolerancesText&) {}},
+      {"rows of a machine whose anchors and platform are off",
+       [](TolerancesText& t) {
+         t.base_anchor_m.fill("0.0003");
+         t.platform_anchor_m.fill("0.0003");
+         t.position_m = "0.0002";
+         t.orientation_rad = "0.001";
+       }},
+      {"rows of a machine held by lengths",
+       [](TolerancesText& t) {
+         t.cable_length_m = {"0.0001", "0", "0.0001", "0.0001", "0.0001", "0.0001"};
          t.platform_anchor_m.fill("0.0001");
        }},
       {"all",
@@ -132,6 +159,7 @@ TEST(Tolerance, MarginsHoldForEveryDeviationAndAreTight) {
     const SegmentProof undisturbed = Prover(problem).prove(a, b);
     ASSERT_EQ(undisturbed.verdict, Verdict::kProved);
     edit(problem.tolerances.emplace());
+    if (std::string_view(name).find("rows") != std::string_view::npos) run_straight(problem);
     const Prover prover(problem);
     const Segment segment = prover.segment(a, b);
     const SegmentProof proof = prover.prove(segment);

@@ -52,7 +52,7 @@ template <class S>
 std::optional<Deviated<S>> deviated(const campaign::Machine<S>& machine, const campaign::Tolerances<S>& within,
                                     campaign::RigidPose<S> pose, const campaign::Deviation& by) {
   const campaign::Machine<S> deviant = campaign::deviate(machine, within, by);
-  if (within.length_controlled) {
+  if (within.lengths_lead()) {
     const campaign::Six<S> commanded = campaign::lengths(machine, pose);
     constexpr int kSteps = 4;  // along the way to the deviation, so that no other assembly is found
     for (int step = 1; step <= kSteps; ++step) {
@@ -60,8 +60,10 @@ std::optional<Deviated<S>> deviated(const campaign::Machine<S>& machine, const c
       campaign::Machine<S> between = machine;
       campaign::Six<S> wanted;
       for (std::size_t i = 0; i < 6; ++i) {
-        between.a[i] = machine.a[i] + share * (deviant.a[i] - machine.a[i]);
-        between.b[i] = machine.b[i] + share * (deviant.b[i] - machine.b[i]);
+        if (within.length_controlled) {
+          between.a[i] = machine.a[i] + share * (deviant.a[i] - machine.a[i]);
+          between.b[i] = machine.b[i] + share * (deviant.b[i] - machine.b[i]);
+        }
         wanted[i] = commanded[i] + share * within.length[i] * S(by.length[i]);
       }
       const auto found = campaign::hold(between, pose, wanted, 30);

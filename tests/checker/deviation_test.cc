@@ -15,6 +15,19 @@ using campaign::Deviation;
 using campaign::RigidPose;
 using campaign::StaticsAt;
 
+/// What says where the platform is.
+enum class Lead { kPose, kLengths, kRows };
+
+/// The same problem of a machine whose lengths may run straight between rows.
+taut::Problem between_rows(taut::Problem problem, std::mt19937_64& random, double size) {
+  TimeText& time = problem.time.emplace();
+  time.winch_acceleration_m_s2.fill("1");
+  RowsText& rows = time.rows.emplace();
+  rows.step_s = "1e-9";
+  for (DecimalText& error : rows.error_m) error = decimal(size * uniform(random, 1e-5, 5e-4));
+  return problem;
+}
+
 struct Seen {
   int boxes = 0;
   int undefined = 0;
@@ -93,15 +106,18 @@ void expect_bounds(const taut::Problem& problem, bool length_controlled, std::mt
   }
 }
 
-void expect_bounds(bool length_controlled) {
-  std::mt19937_64 random(length_controlled ? 11 : 12);
+void expect_bounds(Lead lead) {
+  std::mt19937_64 random(lead == Lead::kLengths ? 11 : lead == Lead::kPose ? 12 : 15);
+  const bool length_controlled = lead == Lead::kLengths;
   Seen seen;
   const std::array<taut::Problem, 2> robots = {testing::free_flying(testing::robot1_slice()),
                                                testing::free_flying(testing::robot2_sphere())};
   for (int trial = 0; trial < 120 && !::testing::Test::HasFailure(); ++trial) {
     taut::Problem problem = robots[static_cast<std::size_t>(trial % 2)];
     if (trial % 3 == 0) problem.load.point_m = {"0.02", "-0.03", "0.05"};
-    problem.tolerances = tolerances(random, std::exp(uniform(random, -3, 1.2)), length_controlled);
+    const double size = std::exp(uniform(random, -3, 1.2));
+    problem.tolerances = tolerances(random, size, length_controlled);
+    if (lead == Lead::kRows) problem = between_rows(problem, random, trial % 5 == 0 ? 5 * size : size);
     expect_bounds(problem, length_controlled, random, seen);
   }
   std::printf("  %d boxes, %d undefined, at most %.3f of a bound\n", seen.boxes, seen.undefined, seen.largest);
@@ -109,8 +125,9 @@ void expect_bounds(bool length_controlled) {
   EXPECT_GT(seen.largest, 0.6) << "no deviation comes close to what is bounded: is there an error in the test?";
 }
 
-TEST(Deviation, TakesNoMoreThanItsBoundWhereThePoseIsControlled) { expect_bounds(false); }
-TEST(Deviation, TakesNoMoreThanItsBoundWhereLengthsAreControlled) { expect_bounds(true); }
+TEST(Deviation, TakesNoMoreThanItsBoundWhereThePoseIsControlled) { expect_bounds(Lead::kPose); }
+TEST(Deviation, TakesNoMoreThanItsBoundWhereLengthsAreControlled) { expect_bounds(Lead::kLengths); }
+TEST(Deviation, TakesNoMoreThanItsBoundWhereLengthsRunStraightBetweenRows) { expect_bounds(Lead::kRows); }
 
 /// A box of a robot with items: what tolerances take from tensions over all loads, and how much these may come to
 /// differ from the nominal ones.
@@ -172,8 +189,9 @@ void expect_item_bounds(const ItemTrial& trial, std::mt19937_64& random, Seen& s
   }
 }
 
-void expect_item_bounds(bool length_controlled) {
-  std::mt19937_64 random(length_controlled ? 13 : 14);
+void expect_item_bounds(Lead lead) {
+  std::mt19937_64 random(lead == Lead::kLengths ? 13 : lead == Lead::kPose ? 14 : 16);
+  const bool length_controlled = lead == Lead::kLengths;
   Seen seen;
   const std::array<taut::Problem, 2> robots = {testing::free_flying(testing::robot1_slice()),
                                                testing::free_flying(testing::robot2_sphere())};
@@ -181,7 +199,8 @@ void expect_item_bounds(bool length_controlled) {
     ItemTrial trial;
     trial.stated = robots[static_cast<std::size_t>(k % 2)];
     if (k % 3 == 0) trial.stated.load.point_m = {"0.02", "-0.03", "0.05"};
-    trial.stated.tolerances = tolerances(random, std::exp(uniform(random, -5, 1)), length_controlled);
+    const double size = std::exp(uniform(random, -5, 1));
+    trial.stated.tolerances = tolerances(random, size, length_controlled);
     trial.stated.tolerances->load_point_m = "0";
     trial.stated.tolerances->wrench.fill("0");
     if (k % 4 == 0) {  // the angle alone, so that what items do where they turn is most of the bound
@@ -190,6 +209,7 @@ void expect_item_bounds(bool length_controlled) {
       if (length_controlled) turning.cable_length_m = std::array<DecimalText, 6>{"0", "0", "0", "0", "0", "0"};
       trial.stated.tolerances = turning;
     }
+    if (lead == Lead::kRows) trial.stated = between_rows(trial.stated, random, k % 4 == 1 ? 5 * size : size);
     trial.problem = to_kernel(trial.stated);
     give_items(trial.problem, random, 1, k % 3 == 1);
     trial.from = {uniform(random, -0.05, 0.05), uniform(random, -0.05, 0.05), uniform(random, 0.25, 0.38),
@@ -217,8 +237,9 @@ void expect_item_bounds(bool length_controlled) {
   EXPECT_GT(seen.largest, 0.6) << "no deviation comes close to what is bounded: is there an error in the test?";
 }
 
-TEST(Deviation, OfItemsTakesNoMoreThanItsBoundWhereThePoseIsControlled) { expect_item_bounds(false); }
-TEST(Deviation, OfItemsTakesNoMoreThanItsBoundWhereLengthsAreControlled) { expect_item_bounds(true); }
+TEST(Deviation, OfItemsTakesNoMoreThanItsBoundWhereThePoseIsControlled) { expect_item_bounds(Lead::kPose); }
+TEST(Deviation, OfItemsTakesNoMoreThanItsBoundWhereLengthsAreControlled) { expect_item_bounds(Lead::kLengths); }
+TEST(Deviation, OfItemsTakesNoMoreThanItsBoundWhereLengthsRunStraightBetweenRows) { expect_item_bounds(Lead::kRows); }
 
 /// At one pose, with these tolerances.
 MarginLoss loss_at(const taut::Problem& problem, const std::vector<double>& at, bool length_controlled, int parts = 8) {

@@ -160,6 +160,40 @@ class TimedAudits(InFolder):
                           code=1)
         self.assertIn("its limit is 0.8", re.sub(r"\s+", " ", said))
 
+    def test_rows_of_the_table_are_those_that_drives_run_between(self):
+        text = re.sub(r"^( *)(- \{name: wind.*)$", r"\1\2\n\1- {name: drives, acceleration: 0.02 m/s^2}",
+                      text_of(self.case), flags=re.M)
+        case = self.write("rows.yaml", text + "  between_rows: straight\n")
+        anchors = ANCHORS[1]
+        for table, rounding, off in (
+                (quaternions(log()), "0.1mm,0.01deg", [1e-4 + math.radians(0.01) * math.hypot(*b) for b in anchors]),
+                (lengths(log()), "0.2mm", [2e-4] * 6)):
+            with self.subTest(rounding):
+                options = ("--timed", "--rounding", rounding)
+                found = self.audited(self.write("log.csv", table), *options, case=case)
+                self.assertEqual(found["verdict"], "proved")
+                self.assertIn("and lengths that run straight from row to row of such a table.", found["read"])
+                self.assertNotIn("joins the rows", found["read"])
+                rows = self.certificate("out")["problem"]["time"]["rows"]
+                self.assertTrue(0.05 <= float(rows["step_s"]) < 0.0500000001, rows)
+                for error, more in zip(rows["error_m"], off, strict=True):
+                    self.assertTrue(0 < float(error) - (0.5 * 0.05**2 / 8 + more) < 2e-9, (error, more))
+                checked = run(CHECK, self.path("out", "certificate.json"), case, "--expect", "proved")
+                self.assertEqual(checked.returncode, 0, checked.stdout)
+                self.assertIn(", the case's rows; ", checked.stdout)
+                checked = run(CHECK, self.path("out", "certificate.json"), self.case)
+                self.assertIn("another problem", checked.stdout)
+                said = run(TAUT, "audit", case, self.path("log.csv"), "--out", self.path("with-report"), *options)
+                self.assertEqual(said.returncode, 0, said.stderr)
+                report = text_of(self.path("with-report", "report.html"))
+                self.assertIn("straight from row to row of such a table", report)
+        # Rows that are far from each other: straight lengths between them make a cable slack, or may.
+        sparse = self.write("sparse.csv", quaternions(log(rows=19)))
+        for asked, code in ((case, (1, 2)), (self.case, (0,))):
+            found = run(TAUT, "audit", asked, sparse, "--out", self.path("out"), "--no-report", "--timed", "--rounding",
+                        "5mm,0.3deg")
+            self.assertIn(found.returncode, code, found.stdout + found.stderr)
+
     def test_what_is_no_move_in_lengths_is_refused_with_its_line(self):
         rounding = ("--timed", "--rounding", "0.2mm")
         rows = log()

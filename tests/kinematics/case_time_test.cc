@@ -98,6 +98,56 @@ TEST(CaseTime, StatesNoMoreThanTheCaseDoes) {
   EXPECT_EQ(timeless.move.jerk_m_s3, std::numeric_limits<double>::infinity());
 }
 
+/// With an item of accelerations, and lengths that run straight between rows.
+Case between_rows(const std::string& time, const std::string& tail = "") {
+  TimeSections sections;
+  sections.load += "    - {name: drives, acceleration: 0.05}\n";
+  sections.time = "time:\n" + time + "  between_rows: straight\n";
+  sections.tail = tail;
+  return parse(sections);
+}
+
+TEST(CaseTime, HasRowsWhoseErrorsFollowFromLimits) {
+  const Problem stated =
+      between_rows("  winches: {acceleration: [0.5, 0.5, 0.5, 1/3, 0.5, 2]}\n  rate: 30 Hz\n").problem;
+  ASSERT_TRUE(stated.time->rows);
+  // 1/30 s and 1 ns, rounded up to 1e-12 s; a h²/8 and 1 nm, rounded up to 1e-12 m
+  EXPECT_EQ(stated.time->rows->step_s, "0.033333334334");
+  const Rational step = parse_rational("0.033333334334");
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Rational more = parse_rational(stated.time->rows->error_m[i]) -
+                          evaluate_exactly(*stated.time->winch_acceleration_m_s2[i]) * step * step / 8;
+    EXPECT_GE(more, Rational(1, 1'000'000'000));
+    EXPECT_LT(more, Rational(1001, 1'000'000'000'000));
+  }
+  EXPECT_TRUE(stated.tolerances) << "which are all zero";
+  EXPECT_FALSE(stated.tolerances->cable_length_m);
+
+  const Problem usual = between_rows("  winches: {acceleration: 0.5}\n", "tolerances: {position: 1 mm}\n").problem;
+  EXPECT_EQ(usual.time->rows->step_s, "0.010000001");
+  EXPECT_THAT(usual.time->rows->error_m, Each(std::string("0.000006251002")));
+  EXPECT_EQ(usual.tolerances->position_m, "0.001");
+  EXPECT_EQ(problem_from_json(json::parse(to_json(usual).dump())).time, usual.time);
+}
+
+TEST(CaseTime, HasRowsOnlyWhereTheirErrorsAreKnown) {
+  const auto rejects = [](const std::string& time, const std::string& message) {
+    EXPECT_THAT([&] { (void)between_rows(time); },
+                ThrowsMessage<InputError>(AllOf(StartsWith("crane.yaml:"), HasSubstr(message))))
+        << time;
+  };
+  rejects("  winches: {speed: 1}\n", "time.between_rows: got no limit of the acceleration of winch 1, expected one");
+  rejects("  load: {speed: 1}\n", "time.between_rows: got no limit of the acceleration of winch 1, expected one");
+  EXPECT_THAT([&] { (void)with_time("time: {winches: {acceleration: 1}, between_rows: straight}\n"); },
+              ThrowsMessage<InputError>(HasSubstr("time.between_rows: got no item 'acceleration' in the load")));
+  for (const char* const wrong : {"cubic", "true", "[straight]", "''", "100 Hz"}) {
+    const std::string time = std::string("time: {winches: {acceleration: 1}, between_rows: ") + wrong + "}\n";
+    EXPECT_THAT([&] { (void)with_time(time); }, ThrowsMessage<InputError>(HasSubstr("crane.yaml:19:"))) << wrong;
+    EXPECT_THAT([&] { (void)with_time(time); }, ThrowsMessage<InputError>(HasSubstr("expected 'straight': drives run")))
+        << wrong;
+  }
+}
+
 TEST(CaseTime, MayDifferFromWinchToWinch) {
   const TimeText time =
       *with_time("time: {winches: {speed: [1, 0.5 m/s, 1/3, 20 m/min, 36 km/h, 90 cm/s]}}\n").problem.time;
@@ -402,6 +452,53 @@ TEST(ProblemTime, IsValidated) {
   // Exactly zero, yet above it in binary64.
   expect_invalid([](Problem& p) { p.time->load_angular_speed_rad_s = "sin(pi)"; },
                  "time.load.angular_speed: got 'sin(pi)', expected a limit above zero");
+  const auto run_straight = [](Problem& p) {
+    p.tolerances.emplace();
+    p.time->winch_acceleration_m_s2.fill("8");
+    p.time->rows = RowsText{"0.5", {"3", "3", "3", "3", "3", "3"}};
+  };
+  expect_invalid(
+      [&](Problem& p) {
+        run_straight(p);
+        p.time->rows->error_m[1] = "0.25";
+      },
+      "time.between_rows.error_m[1]: got 0.25, expected more than an eighth of");
+  expect_invalid(
+      [&](Problem& p) {
+        run_straight(p);
+        p.time->rows->error_m[5] = "-3";
+      },
+      "time.between_rows.error_m[5]: got -3, expected more");
+  expect_invalid(
+      [&](Problem& p) {
+        run_straight(p);
+        p.time->rows->step_s = "0";
+      },
+      "time.between_rows.step_s: got 0, expected a time above zero");
+  expect_invalid(
+      [&](Problem& p) {
+        run_straight(p);
+        p.time->rows->step_s = "nan";
+      },
+      "time.between_rows.step_s: got 'nan'");
+  expect_invalid(
+      [&](Problem& p) {
+        run_straight(p);
+        p.time->winch_acceleration_m_s2[3].reset();
+      },
+      "time.between_rows: got no limit of the acceleration of winch 4");
+  expect_invalid(
+      [&](Problem& p) {
+        run_straight(p);
+        p.time->winch_acceleration_m_s2[3] = "sqrt(2)";
+      },
+      "time.winches.acceleration[3]: got 'sqrt(2)', expected a number");
+  expect_invalid(
+      [&](Problem& p) {
+        run_straight(p);
+        p.tolerances.reset();
+      },
+      "tolerances: got none, expected some");
   expect_invalid([](Problem& p) { p.time->load_speed_m_s = "1e999"; }, "time.load.speed: expression '1e999'");
   expect_invalid(
       [](Problem& p) {

@@ -12,6 +12,7 @@
 #include "base/input_error.h"
 #include "kinematics/move_sampler.h"
 #include "kinematics/pose_sampler.h"
+#include "problem/rows.h"
 #include "tests/support/robots.h"
 
 namespace taut::testing {
@@ -134,6 +135,18 @@ TEST_F(MoveTablesTest, StraightLengthsStayWithinWhatTheCommentSays) {
   }
   EXPECT_LT(most, 0.157e-3);
   EXPECT_GT(most, 0.01e-3);
+}
+
+TEST_F(MoveTablesTest, SaysWhetherStraightLengthsAreProved) {
+  problem_.time->rows = rows_between(*problem_.time, Rational(1, 100) + Rational(1, 1'000'000'000), {});
+  for (const double rate : {100.0, 200.0}) {
+    const std::string text = move_tables(problem_, path_, rate, "").winches_csv;
+    EXPECT_THAT(text, HasSubstr("no farther apart than 0.01 s,\n"));
+    EXPECT_THAT(text, HasSubstr("off by up to 0.00626 mm."));
+    EXPECT_THAT(text, Not(HasSubstr("no part of the certificate")));
+  }
+  const std::string coarser = move_tables(problem_, path_, 99, "").winches_csv;
+  EXPECT_THAT(coarser, HasSubstr("How drives join the rows is no part of the certificate"));
 }
 
 TEST_F(MoveTablesTest, SaysWhichWinchesHaveNoLimit) {

@@ -67,6 +67,22 @@ TEST(Scope, IsTheListOfTheTheory) {
   }
 }
 
+TEST(Scope, OfMovesIsThatOfTheTheoryWithRowsAndWithout) {
+  const std::string theory = without_line_ends("docs/theory.md");
+  Problem stated = sample::timed().problem;
+  const auto text = [&](const std::vector<ScopeItem>& items, const char* key) {
+    return std::ranges::find(items, std::string(key), &ScopeItem::key)->text;
+  };
+  const std::string drives = text(not_covered(stated, true), "drives");
+  EXPECT_THAT(theory, HasSubstr(drives));
+  EXPECT_THAT(drives, HasSubstr("between the rows of a table"));
+  stated.tolerances.emplace();
+  stated.time->rows.emplace();
+  EXPECT_THAT(theory, HasSubstr(text(not_covered(stated, true), "drives")));
+  EXPECT_THAT(text(not_covered(stated, true), "drives"), HasSubstr("jumps of speed at the rows"));
+  EXPECT_THAT(theory, HasSubstr(text(assumed(stated, Interpolation::kStraight, true), "control")));
+}
+
 TEST(Scope, SaysWhoHasToFollowThePathAndHowWell) {
   const auto control = [](const Problem& stated, Interpolation law) {
     const std::vector<ScopeItem> items = assumed(stated, law);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "problem/rows.h"
 #include "reports/page/html_report.h"
 #include "reports/page/report_data.h"
 #include "reports/summary/broken_limits.h"
@@ -40,6 +41,11 @@ TEST(TimeStatement, SaysLimitsInPeoplesUnits) {
             "m/s², power below 60 kW; the load point: speed below 25/18 m/s; the platform: angular speed below 5°/s, "
             "angular acceleration below 0.1 rad/s².");
   EXPECT_THAT(time_limits_text(time, DisplayUnits()), HasSubstr("acceleration below 500 mm/s²"));
+  time.rows = rows_between(time, Rational(1, 100), {0, 0, 0, Rational(1, 1000), 0, 0});
+  EXPECT_THAT(
+      time_limits_text(time, DisplayUnits(CaseUnits{})),
+      HasSubstr(" Drives may run lengths straight between the rows of a table, 0.01 s apart, and be up to 1.01 mm "
+                "off by that."));
 }
 
 TEST(TimeStatement, NamesBoxesAndPointMasses) {

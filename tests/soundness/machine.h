@@ -218,10 +218,17 @@ void for_each_block(Deviation& x, F visit) {
 /// The sizes of the tolerances, 0 for none.
 template <class S>
 struct Tolerances {
-  Six<S> a, b, length;
+  Six<S> a, b;
+  Six<S> held;    ///< of lengths, of a machine that is held by them
+  Six<S> rows;    ///< by which straight lengths between rows may be off
+  Six<S> length;  ///< both together
   S load_point, position, turn;
   Six<S> wrench;
   bool length_controlled = false;
+  bool has_rows = false;
+
+  /// Whether lengths of cables say where the platform is: of the machine as it is, or only of the one as typed.
+  [[nodiscard]] bool lengths_lead() const { return length_controlled || has_rows; }
 };
 
 template <class S>
@@ -231,13 +238,16 @@ Tolerances<S> make_tolerances(const Problem& problem) {
   for (std::size_t i = 0; i < kCables; ++i) {
     t.a[i] = number<S>(text.base_anchor_m[i]);
     t.b[i] = number<S>(text.platform_anchor_m[i]);
-    t.length[i] = text.cable_length_m ? number<S>((*text.cable_length_m)[i]) : S(0.0);
+    t.held[i] = text.cable_length_m ? number<S>((*text.cable_length_m)[i]) : S(0.0);
+    t.rows[i] = problem.time && problem.time->rows ? number<S>(problem.time->rows->error_m[i]) : S(0.0);
+    t.length[i] = t.held[i] + t.rows[i];
     t.wrench[i] = number<S>(text.wrench[i]);
   }
   t.load_point = number<S>(text.load_point_m);
   t.position = number<S>(text.position_m);
   t.turn = number<S>(text.orientation_rad);
   t.length_controlled = text.cable_length_m.has_value();
+  t.has_rows = problem.time && problem.time->rows;
   return t;
 }
 

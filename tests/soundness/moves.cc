@@ -62,6 +62,7 @@ struct MoveTally {
   std::array<std::array<std::array<Row, kMoveDecades>, kKindNames.size()>, 2> rows;
   Count trials{0}, skipped{0}, wrong{0}, proved{0}, refuted{0}, undecided{0}, boxes{0}, multiprecision{0};
   Count deviating{0}, held{0}, held_proved{0}, ranges{0}, slowed{0}, refuted_slowed{0}, refuted_deviating{0};
+  Count between_rows{0}, rows_judged{0};
   Count looked_at{0}, judged{0}, compared{0};
   Count refuted_too_fast{0}, refuted_tension{0}, refuted_length{0}, refuted_singular{0};
   Count kernel_boxes{0}, kernel_moves{0}, kernel_proved{0}, kernel_refuted{0}, kernel_not_led{0}, kernel_open{0};
@@ -263,6 +264,7 @@ class MoveJudge {
         random_law(path_, std::sqrt(0.15 * trial_.size / acceleration), is_for_kernel_ || one_in(random_, 2), random_);
     if (one_in(random_, 4))
       time.stopping_time_s = decimal(path_.timing->step_s * std::pow(10.0, uniform(random_, -1, 2)));
+    if (one_in(random_, 5)) run_straight();
     segment_ = random_() % path_.segments();
     for (std::size_t k = 0; k < path_.segments(); ++k) segments_.push_back(on_segment(k));
     for (std::size_t k = 0; k < path_.segments(); ++k) {
@@ -283,6 +285,28 @@ class MoveJudge {
     is_exact_ = !has_tolerances() && !has_ranges;
   }
 
+  /// Lets lengths run straight between rows. How far these are apart follows from limits: state_step().
+  void run_straight() {
+    if (!has_tolerances()) trial_.problem.tolerances.emplace();
+    RowsText& rows = trial_.problem.time->rows.emplace();
+    const double most = trial_.size * std::pow(10.0, uniform(random_, -8, -2.5));
+    for (DecimalText& error : rows.error_m) error = decimal(most * uniform(random_, 0.1, 1));
+    rows.step_s = "1";
+    ++tally_.between_rows;
+  }
+  /// So far that straight lengths take most of the errors.
+  void state_step() {
+    TimeText& time = trial_.problem.time.value();
+    double step = HUGE_VAL;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      auto& limit = time.winch_acceleration_m_s2[i];
+      const double seen = high_[kMargins + kCables + i];
+      if (!limit) limit = decimal(seen > 0 ? 2 * seen : 1.0);
+      step = std::min(step, std::sqrt(8 * 0.99 * number<double>(time.rows->error_m[i]) / number<double>(*limit)));
+    }
+    time.rows->step_s = decimal(step);
+  }
+
   /// Whether all cables are taut at rest where they are looked at: certificates know no others.
   [[nodiscard]] bool pulls() const {
     const Motion<double> motion(trial_);
@@ -301,6 +325,7 @@ class MoveJudge {
     return result;
   }
 
+  [[nodiscard]] bool has_rows() const { return trial_.problem.time->rows.has_value(); }
   [[nodiscard]] bool has_tolerances() const { return trial_.problem.tolerances.has_value(); }
   [[nodiscard]] const Simulation<double>& approx() const { return approx_[segment_]; }
   [[nodiscard]] Deviation some_deviation() { return has_tolerances() ? random_deviation(random_) : Deviation(); }
@@ -454,6 +479,7 @@ class MoveJudge {
     } else {
       limit(trial_.problem, margin_id(id_)) = text;
     }
+    if (has_rows()) state_step();
     approx_limits_.emplace(trial_.problem);
     exact_limits_.emplace(trial_.problem);
     const bool is_within = exact_limits_->margin(extremum, id_) > BigFloat(0.0);
@@ -478,6 +504,36 @@ class MoveJudge {
     }
     if (least < kLittle) require_feasible(t, x, as, "where floating point says little");
     return least;
+  }
+
+  /// Of a machine whose lengths run straight between two rows of the segment, as near together as these have to be and
+  /// as far off as they may be, at a random time between them.
+  void examine_rows() {
+    const Tolerances<BigFloat> within = make_tolerances<BigFloat>(trial_.problem);
+    const BigFloat step = number<BigFloat>(trial_.problem.time->rows->step_s);
+    const double t = uniform(random_, begin_, end_);
+    const double apart = to_double(step) * (one_in(random_, 3) ? uniform(random_, 0, 1) : 1 - 1e-12);
+    double before = t - apart * uniform(random_, 0, 1);
+    double after = before + apart;
+    before = std::max(before, begin_);
+    after = std::min(after, end_);
+    if (!(before < t && t < after)) return;
+    const auto lengths_at = [&](double time) {
+      return lengths(exact_->motion().machine({}), exact_->motion().reference(exact_->place(BigFloat(time))));
+    };
+    const Six<BigFloat> first = lengths_at(before), now = lengths_at(t), last = lengths_at(after);
+    const BigFloat share = (BigFloat(t) - BigFloat(before)) / (BigFloat(after) - BigFloat(before));
+    Deviation x = some_deviation();
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const BigFloat limit = number<BigFloat>(*trial_.problem.time->winch_acceleration_m_s2[i]);
+      const BigFloat rounding = within.rows[i] - limit * step * step / BigFloat(8.0);
+      const BigFloat off = rounding * BigFloat(one_in(random_, 2) ? 1.0 : -1.0);
+      const BigFloat straight = first[i] + share * (last[i] - first[i]) + off - now[i];
+      if (magnitude(straight) > within.rows[i]) breach("straight lengths are farther off than their rows allow");
+      x.length[i] = to_double((straight + within.held[i] * BigFloat(x.length[i])) / within.length[i]);
+    }
+    require_feasible(t, x, some_choice(), "where lengths run straight between rows");
+    ++tally_.rows_judged;
   }
 
   void require_feasible(double t, const Deviation& x, const Choice& as, const char* where) {
@@ -524,6 +580,7 @@ class MoveJudge {
       }
       if (k == 1) require_feasible(t, other, choice, "at a random time");
     }
+    if (has_rows()) examine_rows();
     // Downhill from the least of them, in time and deviation.
     for (int round = 0; round < 2; ++round) {
       if (has_tolerances()) x = worst_deviation(least_t, x, as, id);
@@ -733,10 +790,11 @@ void print_summary(const MoveTally& tally, double seconds) {
       tally.refuted_tension.load(), tally.refuted_too_fast.load(), tally.refuted_length.load(),
       tally.refuted_singular.load(), tally.refuted_slowed.load(), tally.refuted_deviating.load());
   fmt::print(
+      "{} whose lengths run straight between rows, {} of them judged there after proofs\n"
       "{} boxes, {} of them in MPFR; {} times looked at after proofs, {} of them in {} bits; {} quantities held "
       "to 400 bits\n",
-      tally.boxes.load(), tally.multiprecision.load(), tally.looked_at.load(), tally.judged.load(), kBits,
-      tally.compared.load());
+      tally.between_rows.load(), tally.rows_judged.load(), tally.boxes.load(), tally.multiprecision.load(),
+      tally.looked_at.load(), tally.judged.load(), kBits, tally.compared.load());
   fmt::print(
       "the checker: {} moves, {} proved and {} refuted ones accepted or WRONG, {} open, {} not led to confirm; "
       "{} boxes with violations given to its kernel\n",

@@ -589,7 +589,7 @@ template <class S>
 std::optional<RigidPose<S>> Motion<S>::commanded(const S& s, const Deviation& deviation) const {
   constexpr int kNewtonSteps = 25;
   const RigidPose<S> start = reference(s);
-  if (!trial_.is_held()) return start;
+  if (!trial_.is_held() && !tolerances_.has_rows) return start;
   // The machine as typed is in its tube; from there the pose follows the deviation as it grows.
   std::optional<RigidPose<S>> pose = start;
   if (trial_.law == Law::kCableLengths) {
@@ -602,7 +602,7 @@ std::optional<RigidPose<S>> Motion<S>::commanded(const S& s, const Deviation& de
     for_each_block(scaled, [&](std::span<double> block) {
       for (double& x : block) x *= static_cast<double>(part) / kParts;
     });
-    pose = hold(machine(scaled), *pose, commanded_lengths(s, scaled), kNewtonSteps);
+    pose = hold(trial_.is_held() ? machine(scaled) : machine_, *pose, commanded_lengths(s, scaled), kNewtonSteps);
   }
   return pose;
 }
@@ -647,7 +647,7 @@ bool Motion<S>::is_within(const taut::Deviation& witness) const {
     fit = fit && fits(witness.base_anchors_m[i], tolerances_.a[i]) &&
           fits(witness.platform_anchors_m[i], tolerances_.b[i]);
     if (witness.cable_lengths_m) {
-      fit = fit && fits({(*witness.cable_lengths_m)[i], "0", "0"}, tolerances_.length[i]);
+      fit = fit && fits({(*witness.cable_lengths_m)[i], "0", "0"}, tolerances_.held[i]);
     }
   }
   return fit;
