@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "base/input_error.h"
 #include "kinematics/move_sampler.h"
@@ -101,7 +102,49 @@ double length_tolerance(const Problem& problem, const ToleranceNumbers& toleranc
   const double ends = tolerances.platform_anchor[i] + tolerances.base_anchor[i];
   const double tracking = tolerances.position + tolerances.orientation * (norm_of(problem.robot.platform_anchors_m[i]) +
                                                                           tolerances.platform_anchor[i]);
-  return tolerances.cable_length ? (*tolerances.cable_length)[i] + tracking : ends + tracking;
+  const double by_rows = problem.time && problem.time->rows ? nearest_double(problem.time->rows->error_m[i]) : 0;
+  return by_rows + tracking + (tolerances.cable_length ? (*tolerances.cable_length)[i] : ends);
+}
+
+/// How far errors of lengths lead the platform's origin, and how far they turn it, to first order at a pose.
+std::pair<double, double> led_by(const Model<double>& model, const RigidPose& pose,
+                                 const std::array<double, kCables>& errors) {
+  Matrix6<double> rates;  // of lengths, by velocity and angular velocity
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Vector3<double> arm = pose.q * model.p_PB[i];
+    const Vector3<double> along = (pose.p + arm - model.p_WA[i]).normalized();
+    rates.row(static_cast<Eigen::Index>(i)) << along.transpose(), arm.cross(along).transpose();
+  }
+  const Matrix6<double> inverse = rates.inverse();
+  std::pair<double, double> led = {0, 0};
+  for (std::size_t j = 0; j < kCables; ++j) {
+    const auto column = inverse.col(static_cast<Eigen::Index>(j));
+    led.first += errors[j] * column.head<3>().norm();
+    led.second += errors[j] * column.tail<3>().norm();
+  }
+  return led;
+}
+
+/// Of a machine whose pose is tracked: where straight lengths between rows lead it is added to how far it may be off.
+ToleranceNumbers tolerances_of(const ProvedPath& proved, const PoseSampler& sampler) {
+  ToleranceNumbers result = tolerance_numbers(proved.problem);
+  if (result.cable_length || !proved.problem.time || !proved.problem.time->rows) return result;
+  std::array<double, kCables> errors;
+  for (std::size_t i = 0; i < kCables; ++i) errors[i] = nearest_double(proved.problem.time->rows->error_m[i]);
+  double position = 0, turn = 0;
+  constexpr int kPlaces = 32;  // of a segment
+  for (std::size_t k = 0; k < proved.path.segments(); ++k) {
+    for (int n = 0; n <= kPlaces; ++n) {
+      const RigidPose pose = sampler.rigid_pose(proved.path.segment(k), static_cast<double>(n) / kPlaces);
+      const auto [by, angle] = led_by(sampler.model(), pose, errors);
+      position = std::max(position, by);
+      turn = std::max(turn, angle);
+    }
+  }
+  constexpr double kBetweenPlaces = 1.1;
+  result.position += kBetweenPlaces * position;
+  result.orientation += kBetweenPlaces * turn;
+  return result;
 }
 
 double chord(double angle) { return 2 * std::sin(std::min(angle, 3.14159265358979) / 4); }
@@ -161,7 +204,7 @@ Monitor::Monitor(ProvedPath proved, const GaugeErrors& errors)
     : proved_(without_bodies(std::move(proved))),
       errors_(errors),
       sampler_(proved_.problem),
-      tolerances_(tolerance_numbers(proved_.problem)),
+      tolerances_(tolerances_of(proved_, sampler_)),
       length_allowed_(allowed_of(proved_.problem, errors)),
       table_(make_table(proved_, sampler_, length_allowed_, position_allowed(), orientation_allowed())),
       load_(proved_.problem) {

@@ -448,6 +448,35 @@ TEST(Monitor, KnowsLengthControlledMachines) {
   EXPECT_TRUE(has(monitor.judge(row), AlarmKind::kLength));
 }
 
+TEST(Monitor, KnowsWhereLengthsThatRunStraightLead) {
+  Problem problem = moving_crane();
+  problem.tolerances.emplace();
+  problem.time->winch_acceleration_m_s2.fill("0.5");
+  problem.time->rows = RowsText{"0.2", {"0.003", "0.003", "0.003", "0.003", "0.003", "0.003"}};
+  ProvedPath proved_path = proved(problem, move_along(crane_path(), 4));
+  const GaugeErrors fine{.length_m = 1e-5, .position_m = 1e-5, .orientation_rad = 1e-6};
+  Monitor monitor(proved_path, fine);
+  proved_path.problem.time->rows.reset();
+  Monitor other(proved_path, fine);
+  EXPECT_FALSE(monitor.is_length_controlled());
+  const PoseSampler sampler(problem);
+  std::mt19937 random(3);
+  int alarms = 0;
+  for (int k = 0; k <= 100; ++k) {
+    const RigidPose pose = sampler.rigid_pose(proved_path.path.segment(k / 51), (k % 51) * 0.02);
+    std::array<double, kCables> lengths = cable_lengths(sampler.model(), pose);
+    for (double& length : lengths) length += random() % 2 == 0 ? 0.002999 : -0.002999;
+    MeasuredRow row;
+    row.pose = pose_of_lengths(sampler.model(), lengths, pose);
+    ASSERT_TRUE(row.pose);
+    EXPECT_TRUE(monitor.judge(row).is_good()) << k << ": " << words(monitor.judge(row));
+    if (!other.judge(row).is_good()) ++alarms;
+    for (std::size_t i = 0; i < kCables; ++i) row.length_m[i] = lengths[i];
+    EXPECT_TRUE(monitor.judge(lengths_only(row)).is_good()) << k << ": " << words(monitor.judge(row));
+  }
+  EXPECT_GT(alarms, 90);
+}
+
 /// Loads within the ellipsoid, a path of two angles, no tolerances at all.
 TEST(Monitor, HoldsTensionsToAnEllipsoid) {
   Path path;

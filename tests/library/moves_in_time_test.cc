@@ -257,6 +257,21 @@ TEST(MoveInTime, IsAuditedFromItsOwnPoses) {
   EXPECT_THAT(field_of(options, ""), HasSubstr("without the key 'time'"));
 }
 
+TEST(MoveInTime, MayRunStraightFromRowToRow) {
+  std::string text = crane_text(std::string(kLimits) + "  between_rows: straight\n");
+  const std::string wind = "    - {name: wind, force: 6";
+  text.replace(text.find(wind), wind.size(),
+               "    - {name: drives, acceleration: 0.05 m/s^2}\n    - {name: wind, force: 3");
+  const taut::Case stated = taut::Case::parse(text, "crane.yaml");
+  EXPECT_THAT(stated.time_statement(), HasSubstr("0.05 s apart, and be up to 0.157 mm off by that."));
+  const Certificate certificate = taut::plan(stated);
+  ASSERT_EQ(certificate.verdict(), Verdict::kProved) << certificate.reason();
+  EXPECT_THAT(certificate.text(), HasSubstr(R"("rows":{"error_m":["0.000156)"));
+  EXPECT_THAT(certificate.text(), HasSubstr("The lengths that are commanded may be those of a table"));
+  EXPECT_THAT(certificate.winches_csv(20), HasSubstr("for lengths that run straight from row to row"));
+  EXPECT_THAT(certificate.winches_csv(10), HasSubstr("How drives join the rows is no part of the certificate"));
+}
+
 TEST(MoveInTime, IsAuditedFromItsOwnLengths) {
   const taut::Table winches = planned().winches(50);
   const auto all = static_cast<std::ptrdiff_t>(winches.columns.size());
