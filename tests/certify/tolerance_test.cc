@@ -350,6 +350,36 @@ TEST(Tolerance, LengthsChangeByTheLesserOfTwoBounds) {
 
 /// With more continuation steps, deviations are enclosed more tightly, and tolerances may be larger; what is proved
 /// with them holds all the same.
+/// At one pose, where boxes take nothing: the worst of all corners of the errors of lengths, of the robot as typed, and
+/// of anchors besides.
+TEST(Tolerance, RowsTakeWhatTheirLengthsLeadTo) {
+  for (const char* const anchors : {"0", "0.00001"}) {
+    Problem problem = robot1_slice();
+    const Waypoint a = at({0.5, 0.2});
+    const double undisturbed = Prover(problem).prove(a, a).tension_N;
+    problem.tolerances.emplace();
+    problem.tolerances->base_anchor_m.fill(anchors);
+    const double before = Prover(problem).prove(a, a).tension_N;
+    run_straight(problem);
+    for (DecimalText& error : problem.time->rows->error_m) error = "0.00001";
+    const double proved = Prover(problem).prove(a, a).tension_N;
+    const Model<double> typed = make_model<double>(problem);
+    const RigidPose pose = PoseSampler(problem).rigid_pose(Segment::straight(a, a), 0);
+    Least least;
+    for (unsigned corner = 0; corner < 64; ++corner) {
+      std::array<double, kCables> lengths = cable_lengths(typed, pose);
+      for (std::size_t i = 0; i < kCables; ++i) lengths[i] += (corner >> i & 1U) != 0 ? 1e-5 : -1e-5;
+      const auto led = pose_of_lengths(typed, lengths, pose);
+      ASSERT_TRUE(led);
+      update(least, typed, *led);
+    }
+    const double taken = undisturbed - least.tension;
+    EXPECT_GT(taken, 1e-5);
+    EXPECT_LE(proved, before - 0.999 * taken);
+    EXPECT_GE(proved, before - 1.1 * taken);
+  }
+}
+
 TEST(Tolerance, MoreContinuationStepsProveLargerOnes) {
   const DyadicBox whole{0, 0};
   const auto scaled = [](double factor) {
