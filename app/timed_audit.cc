@@ -23,6 +23,7 @@
 #include "certify/row_distance.h"
 #include "kinematics/move_sampler.h"
 #include "kinematics/pose_conversion.h"
+#include "kinematics/time_limits.h"
 #include "path_io/path_file.h"
 #include "path_io/path_summary.h"
 #include "path_io/waypoint_maker.h"
@@ -70,7 +71,7 @@ class TableReader {
     const MoveFit fit = fitted();
     source.path = fit.path;
     source.table = table(fit);
-    source.table->is_straight = state_rows();
+    source.table->jump_m_s = state_rows();
     source.problem = problem_;
     Sha256 digest;
     digest.update(bytes_);
@@ -274,13 +275,16 @@ class TableReader {
     return table;
   }
 
-  /// Where the case says that drives run straight between rows: these are the rows, as far apart and as far off as they
-  /// may be. Whether it does.
-  bool state_rows() {
-    if (!problem_.time->rows) return false;
+  /// Where the case says that drives run straight between rows: these are the rows, as far apart and as far off as
+  /// they may be, or as far apart as those of tables that are written. By how much lengths that run so may change
+  /// their speed at a row, in floating point [m/s].
+  std::optional<double> state_rows() {
+    if (!problem_.time->rows) return std::nullopt;
     Rational step = 0;
+    double quickest_s = times_s_.back();  // the time between two rows
     for (std::size_t i = 1; i < rows_.size(); ++i) {
       step = std::max(step, Rational(rows_[i].time_s->rational() - rows_[i - 1].time_s->rational()));
+      quickest_s = std::min(quickest_s, times_s_[i] - times_s_[i - 1]);
     }
     std::array<Rational, kCables> off_m;
     const Model<double> model = make_model_without_ellipsoid<double>(problem_);
@@ -288,8 +292,16 @@ class TableReader {
       off_m[i] = Rational(rounding_.position_m) + Rational(rounding_.angle_rad) * Rational(model.p_PB[i].norm()) +
                  Rational(rounding_.length_m);
     }
-    problem_.time->rows = rows_between(*problem_.time, step, off_m);
-    return true;
+    const Rational rounding = Rational(1) / 1'000'000'000;  // of times
+    const Rational usual = Decimal::parse(problem_.time->rows->step_s).rational();
+    problem_.time->rows = rows_between(*problem_.time, std::max(usual, Rational(step + rounding)), off_m);
+    const TimeLimits limits = make_time_limits(problem_);
+    double jump_m_s = 0;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      jump_m_s = std::max(jump_m_s, limits.winch_acceleration[i] * step.convert_to<double>() +
+                                        4 * off_m[i].convert_to<double>() / quickest_s);
+    }
+    return jump_m_s;
   }
 
   [[nodiscard]] RowPose::Form row_form() const {
@@ -361,10 +373,13 @@ std::string row_sentence(const FittedTable& table) {
           : fmt::format("All {} lie within {} of this move at their times (at most {}, line {}, and {}, line {}).",
                         rows, table.rounding.text(), millimetres_above(table.position_m.by), table.position_m.line,
                         degrees_above(table.angle_rad.by), table.angle_rad.line);
-  if (table.is_straight) {
+  if (table.jump_m_s) {
     return fmt::format(
-        "{}{} The move is what is audited, and lengths that run straight from row to row of such a table.", within,
-        zero);
+        "{}{} The move is what is audited, and lengths that run straight from row to row of such a table; limits in "
+        "time "
+        "are those of the move. At a row these lengths may change their speed by up to {}/s at once: how far that "
+        "accelerates the load is what the case's item 'acceleration' has to cover.",
+        within, zero, millimetres_above(*table.jump_m_s));
   }
   return fmt::format(
       "{}{} The move is what is audited: neither the rows' last digits nor how a drive joins the rows are part of it.",

@@ -33,7 +33,9 @@ struct FittedTable {
   };
   Farthest position_m, angle_rad;  ///< of poses
   Farthest length_m;               ///< of cable lengths
-  bool is_straight = false;        ///< lengths that run straight between the rows are part of the theorem
+  /// Where lengths that run straight between the rows are part of the theorem: by how much they may change their speed
+  /// at a row, in floating point [m/s].
+  std::optional<double> jump_m_s;
   std::string angles;  ///< "roll, pitch and yaw": where these were made of quaternions or lengths; else empty
 
   /// The lines of the rows next to a time of the move; one number twice where they are one.

@@ -12,6 +12,7 @@ namespace taut::case_fields {
 namespace {
 
 constexpr int kUsualRate_Hz = 100, kGreatestRate_Hz = 10'000;
+constexpr int kMostStep_s = 1000;  ///< between two rows of which something is proved
 
 bool is_angular(Dimension dimension) {
   return dimension == Dimension::kAngularSpeed || dimension == Dimension::kAngularAcceleration;
@@ -131,6 +132,8 @@ RowsText read_between_rows(const Field& field, const TimeText& limits, const Rat
         "speed at each row, and how far that accelerates the load, as the machine follows them, has to be stated");
   }
   const Rational rounding = Rational(1) / 1'000'000'000;
+  if (rate_Hz * kMostStep_s < 1)
+    field.complain(fmt::format("got it with a rate below 1/{} Hz, expected more", kMostStep_s));
   try {
     return rows_between(limits, 1 / rate_Hz + rounding, {});
   } catch (const FieldError& error) {

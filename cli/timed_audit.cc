@@ -118,7 +118,9 @@ int run_timed_audit(const AuditArguments& arguments, const Case& the_case, const
   const std::string date = report_date();
   const MoveSource source = read_move(the_case.problem, request.path, request.rounding);
   if (!arguments.json) fmt::print("{}", wrapped(source.description, standard_output().columns));
-  announce(the_case, arguments.json);
+  Case with_rows = the_case;
+  with_rows.problem.time = source.problem.time;  // those of the table
+  announce(with_rows, arguments.json);
   std::fflush(stdout);
 
   ResultInputs inputs("audit");

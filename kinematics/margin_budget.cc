@@ -131,13 +131,19 @@ struct Sizes {
   std::array<double, 6> wrench{};
 };
 
-Sizes sizes_of(const std::optional<TolerancesText>& tolerances) {
+bool has_rows(const Problem& problem) { return problem.time && problem.time->rows; }
+
+Sizes sizes_of(const Problem& problem) {
+  const std::optional<TolerancesText>& tolerances = problem.tolerances;
   Sizes result;
   if (!tolerances) return result;
   std::ranges::transform(tolerances->base_anchor_m, result.base.begin(), number);
   std::ranges::transform(tolerances->platform_anchor_m, result.platform.begin(), number);
   std::ranges::transform(tolerances->wrench, result.wrench.begin(), number);
   if (tolerances->cable_length_m) std::ranges::transform(*tolerances->cable_length_m, result.length.begin(), number);
+  for (std::size_t i = 0; i < kCables && has_rows(problem); ++i) {
+    result.length[i] += number(problem.time->rows->error_m[i]);
+  }
   result.load_point = number(tolerances->load_point_m);
   result.position = number(tolerances->position_m);
   result.turn = evaluate_constant<double>(tolerances->orientation_rad);
@@ -195,7 +201,7 @@ bool is_tension(MarginId id) { return id.kind == MarginKind::kTensionMin || id.k
 
 template <class S>
 Budget<S> budget(const Model<Inner<S>>& model, const Statics<Inner<S>>& statics, const Sizes& sizes,
-                 const std::optional<LengthControl<S>>& control, MarginId id) {
+                 const std::optional<LengthControl<S>>& control, bool anchors_lead, MarginId id) {
   const auto n = static_cast<std::size_t>(id.cable);
   Inner<S> limited = limited_quantity(statics, id);
   const Inner<S>& nominal = is_tension(id) ? statics.tension[n] : statics.length[n];
@@ -212,7 +218,11 @@ Budget<S> budget(const Model<Inner<S>>& model, const Statics<Inner<S>>& statics,
     std::copy_n(limited.partial.begin() + kDesign, 6, x.begin());
     return x;
   }();
-  if (control) by_length = follow_lengths(limited, statics, control->inverse);
+  if (control) {
+    Inner<S> led = limited;
+    by_length = follow_lengths(led, statics, control->inverse);
+    if (anchors_lead) limited = led;
+  }
   const auto& g = limited.partial;
   for (std::size_t i = 0; i < kCables; ++i) {
     loss(UncertaintyKind::kBaseAnchors) =
@@ -299,9 +309,10 @@ struct MarginDifferentiator::Data {
       : problem(of),
         plain(make_model<double>(of)),
         model(seeded<double>(of)),
-        sizes(sizes_of(of.tolerances)),
+        sizes(sizes_of(of)),
         stated(stated_uncertainties(of)),
-        length_controlled(is_length_controlled) {}
+        anchors_lead(is_length_controlled),
+        lengths_lead(is_length_controlled || has_rows(of)) {}
 
   Problem problem;
   Model<double> plain;
@@ -311,7 +322,7 @@ struct MarginDifferentiator::Data {
   Sizes sizes;
   std::vector<Uncertainty> stated;
   std::vector<std::string> weights{};  ///< the names of items that are, by their index; else empty
-  bool length_controlled;
+  bool anchors_lead, lengths_lead;  ///< to where the platform is: anchors and lengths, or lengths of the robot as typed
 
   /// What each deviating item may take of the tensions' margins at a pose, in the order of all_margins().
   [[nodiscard]] std::vector<std::vector<double>> item_losses(const RigidPose& pose) const;
@@ -345,8 +356,8 @@ double MarginDifferentiator::Data::derivative(Model<Inner<Outer>>& changed, cons
   set_arms(changed, places);
   const Statics<Inner<Outer>> at = statics_at(changed, pose);
   std::optional<LengthControl<Outer>> control;
-  if (length_controlled) control = length_control(at);
-  const Budget<Outer> found = budget(changed, at, sizes, control, margin);
+  if (lengths_lead) control = length_control(at);
+  const Budget<Outer> found = budget(changed, at, sizes, control, anchors_lead, margin);
   Outer left = found.nominal;
   for (const Outer& loss : found.loss) left = left - loss;
   return left.partial[0];
@@ -375,7 +386,7 @@ std::optional<std::array<MarginBudget, std::size_t{4} * kCables>> MarginDifferen
   const Statics<Inner<double>> at = statics_at(model, pose);
   if (!at.regular) return std::nullopt;
   std::optional<LengthControl<double>> control;
-  if (data_->length_controlled) {
+  if (data_->lengths_lead) {
     control = length_control(at);
     if (!control->regular) return std::nullopt;
   }
@@ -383,7 +394,7 @@ std::optional<std::array<MarginBudget, std::size_t{4} * kCables>> MarginDifferen
   const std::vector<std::vector<double>> item_losses = data_->item_losses(pose);
   std::size_t n = 0;
   for (const MarginId id : all_margins()) {
-    const Budget<double> found = budget(model, at, data_->sizes, control, id);
+    const Budget<double> found = budget(model, at, data_->sizes, control, data_->anchors_lead, id);
     result[n] = {id, found.quantity, limit_of(model, id), found.nominal, found.loss};
     for (std::size_t k = 0; k < item_losses.size(); ++k) {
       result[n].loss_by_item.emplace_back(data_->deviating[k].first, item_losses[k][n]);

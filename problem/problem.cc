@@ -440,7 +440,7 @@ void validate_time(const Problem& problem) {
   if (!problem.time) return;
   validate(*problem.time);
   if (problem.time->rows && !problem.tolerances) {
-    throw FieldError("tolerances", "none", "expected some, if all zero, beside 'time.between_rows'");
+    throw FieldError("tolerances", "none", "expected some, if all zero, beside 'time.rows'");
   }
   if (!has_mass) {
     throw FieldError("load.items", "no mass", "expected a load with at least one item of kind 'mass' beside 'time'");

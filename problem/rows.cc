@@ -10,13 +10,13 @@
 namespace taut {
 namespace {
 
-constexpr const char* kBetweenRows = "time.between_rows";
+constexpr const char* kPlace = "time.rows";
 
 /// a h²/8: how far a length that runs straight between two rows of a move may be from the move's.
 Rational sag(const TimeText& time, std::size_t i, const Rational& step_s) {
   const TimeText::Limit& limit = time.winch_acceleration_m_s2[i];
   if (!limit) {
-    throw FieldError(kBetweenRows, fmt::format("no limit of the acceleration of winch {}", i + 1),
+    throw FieldError(kPlace, fmt::format("no limit of the acceleration of winch {}", i + 1),
                      "expected one of all six, under time.winches.acceleration: how far lengths that run straight "
                      "between two rows may be from the move's depends on it");
   }
@@ -24,7 +24,7 @@ Rational sag(const TimeText& time, std::size_t i, const Rational& step_s) {
     return evaluate_exactly(*limit) * step_s * step_s / 8;
   } catch (const InputError&) {
     throw FieldError(fmt::format("time.winches.acceleration[{}]", i), "'" + excerpt(*limit) + "'",
-                     "expected a number beside 'time.between_rows'");
+                     "expected a number, as the errors of rows are made of it");
   }
 }
 
@@ -53,17 +53,16 @@ void validate_rows(const TimeText& time) {
     try {
       return Decimal::parse(text).rational();
     } catch (const InputError& error) {
-      throw FieldError(fmt::format("{}.{}", kBetweenRows, key), "'" + excerpt(text) + "'", error.what());
+      throw FieldError(fmt::format("{}.{}", kPlace, key), "'" + excerpt(text) + "'", error.what());
     }
   };
   const Rational step = number("step_s", rows.step_s);
   if (step <= 0) {
-    throw FieldError(fmt::format("{}.step_s", kBetweenRows), rows.step_s,
-                     "expected a time above zero between two rows");
+    throw FieldError(fmt::format("{}.step_s", kPlace), rows.step_s, "expected a time above zero between two rows");
   }
   for (std::size_t i = 0; i < kCables; ++i) {
     if (number("error_m", rows.error_m[i]) > sag(time, i, step)) continue;
-    throw FieldError(fmt::format("{}.error_m[{}]", kBetweenRows, i), rows.error_m[i],
+    throw FieldError(fmt::format("{}.error_m[{}]", kPlace, i), rows.error_m[i],
                      "expected more than an eighth of the square of the time between two rows, times the limit of that "
                      "winch's acceleration");
   }

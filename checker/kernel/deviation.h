@@ -40,7 +40,8 @@
 //
 // Rows of a table (TimeLimits::rows) let lengths be off by more, e_i. Where lengths are not controlled, they lead to
 // the pose that the stated robot has with lengths L_i + e_i, which is then the commanded one: rho_j = |d_j| e_j' alone,
-// and anchors deviate where they are. That robot at that pose is among the deviations: it is the one without others.
+// and anchors deviate where they are. That robot at that pose, about whatever load point deviates, is among the
+// deviations: it is the one without others.
 //
 // The length |d_i| of a cable changes at the rate u_i . d_i', by no more than |p'| + min(|W x R b_i . u_i|, |W||b_i|) +
 // ... Where lengths lead, it is L_i + e_i at the commanded pose of the whole deviation, from which tracking then takes

@@ -241,7 +241,9 @@ void require_rows(const Problem& problem) {
     if (!problem.time->winch_acceleration[i]) throw Rejected("rows of a table without limits of all accelerations");
     const Ball room = Ball(mpq_class(8 * error[i])) -
                       rate_limit(problem, RateKind::kWinchAcceleration, i) * Ball(mpq_class(step * step));
-    if (!certainly_positive(room)) throw Rejected("rows of a table too far apart for their errors");
+    if (!certainly_positive(room)) {
+      throw Rejected("rows of a table too far apart for the error of cable " + std::to_string(i + 1));
+    }
   }
 }
 

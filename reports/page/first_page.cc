@@ -300,8 +300,10 @@ Html declaration(const ReportContext& scene, const Summary& s) {
         "does not cover is covered by document "
         "<span class=\"blank\"></span>, and that taut-check accepted the {}.",
         scene.certificate.problem.bodies ? ", tolerances and bodies" : " and tolerances",
-        is_move(scene.certificate) ? "its drives follow this move in time"
-                                   : "it moves slowly and its controller follows this path",
+        !is_move(scene.certificate) ? "it moves slowly and its controller follows this path"
+        : scene.certificate.problem.time->rows
+            ? "its drives follow this move in time or run lengths straight between the rows of its table"
+            : "its drives follow this move in time",
         certificate_name(s));
   } else if (s.verdict == "refuted") {
     text = html(

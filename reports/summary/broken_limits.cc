@@ -334,7 +334,9 @@ std::string table_text(const ReportContext& scene) {
       "that fitted it; the checker is not told of rows. {}",
       audited_file(scene), table->rows, table->rounding, table->is_of_lengths ? "its cable lengths" : "it",
       scene.certificate.problem.time->rows
-          ? "Lengths that run straight from row to row of such a table are among those that the verdict is about."
+          ? "What is said of tensions, lengths, clearances and singular poses is about lengths that run straight from "
+            "row "
+            "to row of such a table, too."
           : "The rows' last digits, and how a drive joins the rows, are no part of the move.");
 }
 

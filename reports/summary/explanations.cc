@@ -66,10 +66,15 @@ Explanation explained(Undecided reason) {
           "The tolerances are too large for a proof of this margin",
           "The machine as stated keeps its limits. That every machine within all the tolerances keeps the named margin "
           "could be neither proved nor refuted.",
-          "A small margin at the place that is named, or tolerances whose effects add up there. Proofs with tolerances "
-          "are cautious: they may need a little more margin than the machine does.",
+          "A small margin at the place that is named, or tolerances whose effects add up there; or rows of a table "
+          "that "
+          "are far apart (time.between_rows). Proofs with tolerances are cautious: they may need a little more margin "
+          "than "
+          "the machine does.",
           "Read the lines that begin \"In the way\": they name cable, limit, place and amount, and which share of the "
-          "tolerances is provable. taut sensitivity seeks changes that prove the path.",
+          "tolerances is provable. taut sensitivity seeks changes that prove the path, at rest. Of rows, state a "
+          "higher "
+          "time.rate, or lower limits of the winches' acceleration.",
           "open: the tolerances are too large for a proof at margin tension_min of cable 1 [U6]");
     case Undecided::kPrecision:
       return entry(

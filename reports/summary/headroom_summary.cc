@@ -15,6 +15,7 @@
 #include "reports/summary/load_statement.h"
 #include "reports/summary/numbers.h"
 #include "reports/summary/sentences.h"
+#include "reports/summary/time_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -311,15 +312,23 @@ std::string tightest_sentence(const Headroom& headroom, const Problem& problem, 
   const std::string missing = is_proved  ? ""
                               : left > 0 ? fmt::format(" {} are left.", amount(left))
                                          : fmt::format(" {} are missing.", amount(-left));
+  const std::string rows = problem.time && problem.time->rows
+                               ? " Cable lengths take part as rows of a table leave them open, " +
+                                     row_error_text(*problem.time->rows) + " at most (time.between_rows)."
+                               : "";
   return fmt::format(
-      "{}: {}. The nominal machine has a margin of {} there; of that take, to first order and in floating point: {}.{}",
-      begin, margin, amount(budget.nominal), losses_text(budget, unit), missing);
+      "{}: {}. The nominal machine has a margin of {} there; of that take, to first order and in floating point: "
+      "{}.{}{}",
+      begin, margin, amount(budget.nominal), losses_text(budget, unit), missing, rows);
 }
 
 std::string nominal_sentence(const Headroom& headroom, const Problem& problem, const DisplayUnits& units) {
   if (!headroom.nominal_provable) return "";
   if (*headroom.nominal_provable) return " The nominal machine, under the nominal load, is proved.";
-  if (!headroom.nominal_violation) return " Not even the nominal machine, under the nominal load, could be proved.";
+  if (!headroom.nominal_violation) {
+    return fmt::format(" Not even the nominal machine, under the nominal load{}, could be proved.",
+                       problem.time && problem.time->rows ? ", with lengths that are off between rows" : "");
+  }
   return fmt::format(" The nominal machine itself breaks a limit: {}.",
                      violation_text(*headroom.nominal_violation, problem, units));
 }

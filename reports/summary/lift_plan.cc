@@ -115,9 +115,10 @@ LiftPlanItem dynamics_item(const ReportContext& scene) {
       fmt::format("The move takes T = {}. Forces of inertia of the weights are covered at every time of it. {}",
                   seconds_text(scene.certificate.path.timing->duration_s()),
                   time_limits_text(problem.time.value(), scene.illustration.units));
-  item.open =
-      "That the drives keep to the times, speeds and accelerations; vibration, jerk and stops on the way. Lift "
-      "planner.";
+  item.open = fmt::format(
+      "That the drives keep to the times, speeds and accelerations{}; vibration, jerk and stops on the way. Lift "
+      "planner.",
+      problem.time->rows ? ", and that what jumps of speed at rows add is within the loads" : "");
   return item;
 }
 

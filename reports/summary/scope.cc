@@ -68,9 +68,12 @@ ScopeItem speed(const Problem& problem, bool is_in_time) {
             ""};
   }
   if (problem.time) {
-    return {"slow", "a platform at rest",
-            "The platform is at rest: neither inertia nor the limits of speed, acceleration and power were looked at.",
-            ""};
+    return {
+        "slow", "a platform at rest",
+        std::string("The platform is at rest: neither inertia nor the limits of speed, acceleration and power were "
+                    "looked at.") +
+            (problem.time->rows ? " Lengths of cables are off as rows of a table leave them open in the move." : ""),
+        ""};
   }
   return {"slow", "slow motion",
           "The motion is slow (quasi-static): inertia counts only as far as the set of loads contains it.", ""};
@@ -82,7 +85,7 @@ ScopeItem drives(bool has_tolerances, bool has_rows) {
     return {"control", "drives that run lengths straight between the rows of the move's table",
             "The drives follow the move in time, as its law states, or a table of it, between whose rows they run the "
             "lengths of cables straight, within the stated tolerances. A machine that deviates so has the commanded "
-            "velocities and accelerations; what it is accelerated beside them at the rows is within the stated loads.",
+            "velocities and accelerations; how far the jumps at rows accelerate it besides is within the stated loads.",
             ""};
   }
   return {
@@ -223,12 +226,13 @@ std::vector<ScopeItem> not_covered(const Problem& problem, bool is_in_time) {
   if (is_in_time) {
     const auto at = std::ranges::find(result, std::string_view("errors"), &ScopeItem::key);
     if (problem.time->rows) {
-      result.insert(at + 1,
-                    {"drives", "errors of drives in speed and acceleration beyond the stated loads",
-                     "Errors with which drives keep to speeds and accelerations, the jumps of speed at the rows "
-                     "of a table among them, beyond the set of loads; their power at other speeds than those of "
-                     "path and law.",
-                     "What drives and jumps of speed at rows add to accelerations is within the stated loads."});
+      result.insert(
+          at + 1,
+          {"drives", "errors of drives in speed, acceleration and power, and jumps at rows, beyond the stated loads",
+           "Errors with which drives keep to speeds and accelerations, the jumps of speed at the rows "
+           "of a table among them, beyond the set of loads; their power at other speeds than those of "
+           "path and law.",
+           "What drives and jumps of speed at rows add to accelerations is within the stated loads."});
     } else {
       result.insert(at + 1, {"drives", "errors of drives in speed and acceleration, and between the rows of a table",
                              "Errors with which drives keep to speeds and accelerations; how they move between the "

@@ -138,10 +138,12 @@ std::string time_limits_text(const TimeText& time, const DisplayUnits& units) {
             : fmt::format("{:.6g}", evaluate_constant<double>(*time.stopping_time_s)));
   }
   if (time.rows) {
-    const double step_s = ScalarTraits<double>::from_decimal(time.rows->step_s);
+    constexpr int kDigits = 6;
     text += fmt::format(
-        " Drives may run lengths straight between the rows of a table, {:.6g} s apart, and be up to {} off by that.",
-        step_s, row_error_text(*time.rows));
+        " Drives may run lengths straight between the rows of a table, at least {} a second, and be up to {} off by "
+        "that; "
+        "limits in time are those of the move itself.",
+        rounded_up(1 / ScalarTraits<double>::from_decimal(time.rows->step_s), kDigits), row_error_text(*time.rows));
   }
   return text;
 }

@@ -137,6 +137,7 @@ TEST(CaseTime, HasRowsOnlyWhereTheirErrorsAreKnown) {
         << time;
   };
   rejects("  winches: {speed: 1}\n", "time.between_rows: got no limit of the acceleration of winch 1, expected one");
+  rejects("  winches: {acceleration: 1}\n  rate: 0.0009\n", "time.between_rows: got it with a rate below 1/1000 Hz");
   rejects("  load: {speed: 1}\n", "time.between_rows: got no limit of the acceleration of winch 1, expected one");
   EXPECT_THAT([&] { (void)with_time("time: {winches: {acceleration: 1}, between_rows: straight}\n"); },
               ThrowsMessage<InputError>(HasSubstr("time.between_rows: got no item 'acceleration' in the load")));
@@ -462,31 +463,31 @@ TEST(ProblemTime, IsValidated) {
         run_straight(p);
         p.time->rows->error_m[1] = "0.25";
       },
-      "time.between_rows.error_m[1]: got 0.25, expected more than an eighth of");
+      "time.rows.error_m[1]: got 0.25, expected more than an eighth of");
   expect_invalid(
       [&](Problem& p) {
         run_straight(p);
         p.time->rows->error_m[5] = "-3";
       },
-      "time.between_rows.error_m[5]: got -3, expected more");
+      "time.rows.error_m[5]: got -3, expected more");
   expect_invalid(
       [&](Problem& p) {
         run_straight(p);
         p.time->rows->step_s = "0";
       },
-      "time.between_rows.step_s: got 0, expected a time above zero");
+      "time.rows.step_s: got 0, expected a time above zero");
   expect_invalid(
       [&](Problem& p) {
         run_straight(p);
         p.time->rows->step_s = "nan";
       },
-      "time.between_rows.step_s: got 'nan'");
+      "time.rows.step_s: got 'nan'");
   expect_invalid(
       [&](Problem& p) {
         run_straight(p);
         p.time->winch_acceleration_m_s2[3].reset();
       },
-      "time.between_rows: got no limit of the acceleration of winch 4");
+      "time.rows: got no limit of the acceleration of winch 4");
   expect_invalid(
       [&](Problem& p) {
         run_straight(p);

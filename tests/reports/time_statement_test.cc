@@ -44,8 +44,8 @@ TEST(TimeStatement, SaysLimitsInPeoplesUnits) {
   time.rows = rows_between(time, Rational(1, 100), {0, 0, 0, Rational(1, 1000), 0, 0});
   EXPECT_THAT(
       time_limits_text(time, DisplayUnits(CaseUnits{})),
-      HasSubstr(" Drives may run lengths straight between the rows of a table, 0.01 s apart, and be up to 1.01 mm "
-                "off by that."));
+      HasSubstr(" Drives may run lengths straight between the rows of a table, at least 100 a second, and be up "
+                "to 1.01 mm off by that; limits in time are those of the move itself."));
 }
 
 TEST(TimeStatement, NamesBoxesAndPointMasses) {
