@@ -19,6 +19,7 @@
 #include "app/meshes.h"
 #include "app/plan.h"
 #include "app/prove.h"
+#include "app/proved_path.h"
 #include "app/recheck.h"
 #include "app/report.h"
 #include "app/sensitivity_json.h"
@@ -859,16 +860,29 @@ Table table_of(const std::array<std::string_view, kColumns>& columns,
 std::vector<MoveLeg> moves_of(const Certificate& certificate) {
   std::vector<MoveLeg> result;
   for (const auto& [name, leg] : certificate.content().legs) {
-    result.push_back({leg.content().stated.problem, leg.content().stated.path, name});
+    const taut::Certificate& stated = leg.content().stated;
+    result.push_back({stated.problem, stated.path, name, tension_pieces(leg.content().checked)});
   }
   return result;
 }
 
-MoveRows move_rows_of(const Certificate& certificate, double rate_Hz, const char* table) {
-  require_move_table(certificate, rate_Hz, table);
+MoveRows pose_rows_of(const Certificate& certificate, double rate_Hz) {
+  require_move_table(certificate, rate_Hz, "poses");
+  const taut::Certificate& stated = certificate.content().stated;
+  if (certificate.content().legs.empty()) return move_rows(stated.problem, stated.path, {}, rate_Hz);
+  std::vector<MoveLeg> legs;
+  for (const auto& [name, leg] : certificate.content().legs) {
+    legs.push_back({leg.content().stated.problem, leg.content().stated.path, name, {}});
+  }
+  return move_rows(legs, rate_Hz);
+}
+
+MoveRows winch_rows_of(const Certificate& certificate, double rate_Hz) {
+  require_move_table(certificate, rate_Hz, "winches");
   const taut::Certificate& stated = certificate.content().stated;
   const std::vector<MoveLeg> legs = moves_of(certificate);
-  return legs.empty() ? move_rows(stated.problem, stated.path, rate_Hz) : move_rows(legs, rate_Hz);
+  if (!legs.empty()) return move_rows(legs, rate_Hz);
+  return move_rows(stated.problem, stated.path, tension_pieces(certificate.content().checked), rate_Hz);
 }
 
 MoveTables move_tables_of(const Certificate& certificate, double rate_Hz, const char* table) {
@@ -876,18 +890,18 @@ MoveTables move_tables_of(const Certificate& certificate, double rate_Hz, const 
   const Certificate::Content& content = certificate.content();
   const std::vector<MoveLeg> legs = moves_of(certificate);
   if (!legs.empty()) return move_tables(legs, content.stated.problem.name, rate_Hz, content.checked.sha256);
-  return move_tables(content.stated.problem, content.stated.path, rate_Hz, content.checked.sha256);
+  const taut::Certificate& stated = content.stated;
+  return move_tables(stated.problem, stated.path, tension_pieces(content.checked), rate_Hz, content.checked.sha256);
 }
 
 }  // namespace
 
 Table Certificate::winches(double rate_Hz) const {
-  return within(ErrorCode::kUse,
-                [&] { return table_of(kWinchColumns, move_rows_of(*this, rate_Hz, "winches").winches); });
+  return within(ErrorCode::kUse, [&] { return table_of(kWinchColumns, winch_rows_of(*this, rate_Hz).winches); });
 }
 
 Table Certificate::poses(double rate_Hz) const {
-  return within(ErrorCode::kUse, [&] { return table_of(kPoseColumns, move_rows_of(*this, rate_Hz, "poses").poses); });
+  return within(ErrorCode::kUse, [&] { return table_of(kPoseColumns, pose_rows_of(*this, rate_Hz).poses); });
 }
 
 std::string Certificate::winches_csv(double rate_Hz) const {

@@ -18,74 +18,8 @@
 namespace taut {
 namespace {
 
-constexpr std::size_t kFewestPieces = 512;  ///< into which the path is halved at least, so that ranges are of one place
-constexpr std::size_t kManyBoxes = 20'000;  ///< these are not halved
-constexpr std::size_t kCellsNearby = 256;   ///< that are looked at on either side before all of the path is
-constexpr double kRounding_s = 1e-9;        ///< far more than times are rounded by
-
-/// What the theorem's margin leaves of the limits, rounded outward.
-std::array<Range, kCables> ranges_by_margin(const RobotText& robot, const Margins& margins) {
-  const Rational margin = Decimal::parse(margins.tension_N).rational();
-  std::array<Range, kCables> result;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    result[i] = {below(Rational(Decimal::parse(robot.tension_N[i].lower).rational() + margin)),
-                 above(Rational(Decimal::parse(robot.tension_N[i].upper).rational() - margin))};
-  }
-  return result;
-}
-
-std::vector<DyadicBox> halved(const DyadicBox& box, int times) {
-  if (times == 0) return {box};
-  std::vector<DyadicBox> result = halved(box.left(), times - 1);
-  std::ranges::copy(halved(box.right(), times - 1), std::back_inserter(result));
-  return result;
-}
-
-std::vector<std::vector<DyadicBox>> halved_boxes(const std::vector<std::vector<DyadicBox>>& boxes) {
-  std::size_t count = 0;
-  for (const auto& segment : boxes) count += segment.size();
-  int times = 0;
-  for (; count > 0 && count << static_cast<unsigned>(times) < kFewestPieces;) ++times;
-  std::vector<std::vector<DyadicBox>> result;
-  for (const auto& segment : boxes) {
-    std::vector<DyadicBox>& pieces = result.emplace_back();
-    for (const DyadicBox& box : segment) std::ranges::copy(halved(box, times), std::back_inserter(pieces));
-  }
-  return result;
-}
-
-/// Enclosures of tensions along the whole path; where there is none, what the margin says.
-std::vector<PlaceTable::Piece> pieces_of(const ProvedPath& proved) {
-  const std::vector<std::vector<DyadicBox>> boxes = halved_boxes(proved.boxes);
-  std::size_t count = 0;
-  for (const auto& segment : boxes) count += segment.size();
-  RangeOptions options;
-  if (count > kManyBoxes) options.most_halvings = 0;
-  const PathRanges ranges = path_ranges(Prover(proved.problem), proved.path, boxes, options);
-  std::vector<PlaceTable::Piece> result;
-  for (std::size_t k = 0; k < proved.path.segments(); ++k) {
-    const auto from = static_cast<double>(k);
-    const std::array<Range, kCables> by_margin = ranges_by_margin(proved.problem.robot, proved.margins[k]);
-    double reached = 0;
-    const auto fill_to = [&](double s) {
-      if (s > reached) result.push_back({{from + reached, from + s}, by_margin});
-    };
-    for (const BoxRanges& piece : k < ranges.segments.size() ? ranges.segments[k] : std::vector<BoxRanges>()) {
-      const double lower = piece.box.lower().approx(), upper = piece.box.upper().approx();
-      if (lower < reached) continue;
-      fill_to(lower);
-      std::array<Range, kCables> tension;
-      for (std::size_t i = 0; i < kCables; ++i) {
-        tension[i] = {std::max(piece.tension[i].lower, by_margin[i].lower),
-                      std::min(piece.tension[i].upper, by_margin[i].upper)};
-      }
-      result.push_back({{from + lower, from + upper}, tension});
-      reached = upper;
-    }
-    fill_to(1);
-  }
-  return result;
-}
+constexpr std::size_t kCellsNearby = 256;  ///< that are looked at on either side before all of the path is
+constexpr double kRounding_s = 1e-9;       ///< far more than times are rounded by
 
 double norm_of(const std::array<DecimalText, 3>& text) {
   return Vector3<double>(nearest_double(text[0]), nearest_double(text[1]), nearest_double(text[2])).norm();
@@ -151,23 +85,6 @@ double chord(double angle) { return 2 * std::sin(std::min(angle, 3.1415926535897
 
 }  // namespace
 
-ProvedPath proved_path(const Certificate& certificate) {
-  if (certificate.verdict != Verdict::kProved) {
-    throw InputError(
-        fmt::format("got the verdict '{}', expected a path that is proved", taut::name(certificate.verdict)));
-  }
-  ProvedPath result{certificate.problem, certificate.path, {}, {}};
-  for (std::size_t k = 0; k < certificate.path.segments(); ++k) {
-    const bool is_there = k < certificate.segments.size();
-    result.boxes.push_back(is_there ? dyadic_boxes(certificate.segments[k].boxes) : std::vector<DyadicBox>());
-    const std::optional<Margins>& margins =
-        is_there && certificate.segments[k].margins ? certificate.segments[k].margins : certificate.margins;
-    if (!margins) throw InputError(fmt::format("segments[{}]: got no margins, expected those of a proof", k));
-    result.margins.push_back(*margins);
-  }
-  return result;
-}
-
 const char* name(AlarmKind kind) {
   switch (kind) {
     case AlarmKind::kLength: return "length";
@@ -186,7 +103,13 @@ namespace {
 
 PlaceTable make_table(const ProvedPath& proved, const PoseSampler& sampler,
                       const std::array<double, kCables>& length_allowed, double position, double turn) {
-  return {sampler, proved.path, pieces_of(proved), {length_allowed, position, chord(turn)}};
+  std::vector<PlaceTable::Piece> pieces;
+  for (const TensionPiece& piece : tension_pieces(proved)) {
+    PlaceTable::Piece& place = pieces.emplace_back();
+    place.places = {piece.lower, piece.upper};
+    for (std::size_t i = 0; i < kCables; ++i) place.tension[i] = {piece.tension[i][0], piece.tension[i][1]};
+  }
+  return {sampler, proved.path, std::move(pieces), {length_allowed, position, chord(turn)}};
 }
 
 std::array<double, kCables> allowed_of(const Problem& problem, const GaugeErrors& errors) {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "app/place_table.h"
+#include "app/proved_path.h"
 #include "app/wrench_test.h"
-#include "certificate/certificate.h"
 
 namespace taut {
 
@@ -23,17 +23,6 @@ namespace taut {
 struct GaugeErrors {
   double length_m = 0, tension_N = 0, position_m = 0, orientation_rad = 0, time_s = 0;
 };
-
-/// What is known of a path that is proved, without anything that the monitor does not look at.
-struct ProvedPath {
-  Problem problem;
-  Path path;
-  std::vector<std::vector<DyadicBox>> boxes;  ///< of each segment
-  std::vector<Margins> margins;               ///< likewise
-};
-/// @throws InputError if the certificate's verdict is not "proved", or it states no margins.
-/// @pre the checker has accepted it
-[[nodiscard]] ProvedPath proved_path(const Certificate& certificate);
 
 struct MeasuredRow {
   std::optional<double> time_s;

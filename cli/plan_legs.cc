@@ -10,6 +10,7 @@
 
 #include "app/legs.h"
 #include "app/meshes.h"
+#include "app/proved_path.h"
 #include "app/report.h"
 #include "base/files.h"
 #include "base/input_error.h"
@@ -185,7 +186,9 @@ void add_tables_of_all(const CaseOfLegs& the_case, const PlannedLegs& planned, c
   if (!duration_s(planned)) return;
   std::vector<MoveLeg> moves;
   for (std::size_t k = 0; k < planned.legs.size(); ++k) {
-    moves.push_back({the_case.legs[k].content.problem, planned.legs[k].planned.plan.path, the_case.legs[k].name});
+    const PlannedCase& leg = planned.legs[k].planned;
+    moves.push_back(
+        {the_case.legs[k].content.problem, leg.plan.path, the_case.legs[k].name, tension_pieces(leg.checked)});
   }
   add_move_tables(
       out, move_tables(moves, the_case.whole.problem.name, the_case.whole.move.rate_Hz, planned.checked.sha256), files);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/proved_path.h"
 #include "base/plural.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
@@ -291,7 +292,10 @@ std::vector<FileContent> plan_files(const Case& the_case, const PlanOutcome& out
   if (!path.timing) {
     files.push_back({outcome.out / "controller.csv", controller_csv(the_case.problem, path, step, sha256)});
   } else {  // a table without times would be about another motion than what is proved
-    add_move_tables(outcome.out, move_tables(the_case.problem, path, the_case.move.rate_Hz, sha256), files);
+    add_move_tables(
+        outcome.out,
+        move_tables(the_case.problem, path, tension_pieces(outcome.planned.checked), the_case.move.rate_Hz, sha256),
+        files);
   }
   files.push_back({outcome.out / "path.csv", path_csv(the_case.problem, path, sha256)});  // last
   return files;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/meshes.h"
+#include "app/proved_path.h"
 #include "app/report.h"
 #include "app/timed_audit.h"
 #include "base/files.h"
@@ -146,7 +147,9 @@ int run_timed_audit(const AuditArguments& arguments, const Case& the_case, const
   }
   if (exit_code(checked) == kProvedExit) {  // what is not proved is not for a machine to follow
     try {
-      add_move_tables(out, move_tables(source.problem, source.path, the_case.move.rate_Hz, checked.sha256), files);
+      add_move_tables(
+          out, move_tables(source.problem, source.path, tension_pieces(checked), the_case.move.rate_Hz, checked.sha256),
+          files);
     } catch (const InputError& error) {  // too many rows: the audit is none the worse
       complain(fmt::format("warning: no tables of the move are written: {}", error.what()));
     }

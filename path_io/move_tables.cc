@@ -18,6 +18,8 @@
 namespace taut {
 namespace {
 
+constexpr std::size_t kLeastTension = 1 + 3 * kCables;  ///< the column; the greatest ones follow the six least ones
+
 /// The times of the rows.
 std::vector<double> times(const TimeLaw& law, double rate_Hz) {
   const double end = law.duration_s();
@@ -119,9 +121,13 @@ std::string head_text(const Head& head, const MoveRows& rows, std::string_view w
 MoveTables tables_of(const Head& head, const Problem& problem, const MoveRows& rows) {
   MoveTables tables;
   tables.winches_csv =
-      head_text(head, rows, ", for its winches",
-                "lengths l are in metres, from anchor to anchor; v and a are their first two derivatives by time.",
-                between_rows(problem, head.rate_Hz)) +
+      head_text(
+          head, rows, ", for its winches",
+          "lengths l are in metres, from anchor to anchor; v and a are their first two derivatives by time; fmin and "
+          "fmax\n"
+          "# are the least and the greatest tension that the proof allows each cable from this row to the next, in "
+          "newtons, over all\n# loads and deviations.",
+          between_rows(problem, head.rate_Hz)) +
       fmt::format("{}\n", fmt::join(kWinchColumns, ","));
   const std::string pose_head =
       head_text(head, rows, ", as poses",
@@ -138,6 +144,28 @@ MoveTables tables_of(const Head& head, const Problem& problem, const MoveRows& r
   return tables;
 }
 
+/// To each row, the least and the greatest tension of all pieces from its place to that of the next row.
+void add_tensions(std::span<const double> places, std::span<const TensionPiece> pieces, MoveRows& rows) {
+  constexpr double kRounding = 1e-12;  // of places, as shares
+  std::size_t first = 0;
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const double from = places[n] * (1 - kRounding), to = places[std::min(n + 1, places.size() - 1)] * (1 + kRounding);
+    while (first + 1 < pieces.size() && pieces[first].upper < from) ++first;
+    auto* const least = &rows.winches[n][kLeastTension];
+    auto* const most = least + kCables;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      least[i] = HUGE_VAL;
+      most[i] = -HUGE_VAL;
+    }
+    for (std::size_t k = first; k < pieces.size() && (k == first || pieces[k].lower <= to); ++k) {
+      for (std::size_t i = 0; i < kCables; ++i) {
+        least[i] = std::min(least[i], pieces[k].tension[i][0]);
+        most[i] = std::max(most[i], pieces[k].tension[i][1]);
+      }
+    }
+  }
+}
+
 /// Appends the rows of a leg that begins where the rows end.
 void append(MoveRows next, MoveRows& rows) {
   const bool is_first = rows.poses.empty();
@@ -147,6 +175,12 @@ void append(MoveRows next, MoveRows& rows) {
     double product = 0;
     for (std::size_t k = 4; k < kPoseColumns.size(); ++k) product += rows.poses.back()[k] * next.poses.front()[k];
     sign = product < 0 ? -1 : 1;
+  }
+  for (std::size_t k = 0; k < kCables && !is_first; ++k) {  // in the row where they meet, with either load
+    auto& least = rows.winches.back()[kLeastTension + k];
+    auto& most = rows.winches.back()[kLeastTension + kCables + k];
+    least = std::min(least, next.winches.front()[kLeastTension + k]);
+    most = std::max(most, next.winches.front()[kLeastTension + kCables + k]);
   }
   for (std::size_t n = is_first ? 0 : 1; n < next.poses.size(); ++n) {
     next.winches[n][0] += start;
@@ -159,16 +193,18 @@ void append(MoveRows next, MoveRows& rows) {
 
 }  // namespace
 
-MoveRows move_rows(const Problem& problem, const Path& path, double rate_Hz) {
+MoveRows move_rows(const Problem& problem, const Path& path, std::span<const TensionPiece> tensions, double rate_Hz) {
   if (!is_in_time(problem, path)) throw std::logic_error("a table with times of a path without");
   const MoveSampler moves(problem);
   const PoseSampler poses(problem);
   MoveRows rows;
   Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
+  std::vector<double> places;
   for (const double t : times(path.timing.value(), rate_Hz)) {
     const MoveSample now = moves.at_time(path, t);
     RigidPose pose = poses.rigid_pose(path.segment(now.segment), now.s);
     const std::array<double, kCables> lengths = cable_lengths(poses.model(), pose);
+    places.push_back(static_cast<double>(now.segment) + now.s);
     auto& winches = rows.winches.emplace_back();
     winches[0] = t;
     auto into = winches.begin() + 1;
@@ -179,16 +215,19 @@ MoveRows move_rows(const Problem& problem, const Path& path, double rate_Hz) {
     last = pose.q;
     rows.poses.push_back({t, pose.p(0), pose.p(1), pose.p(2), pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()});
   }
+  add_tensions(places, tensions, rows);
   return rows;
 }
 
-MoveTables move_tables(const Problem& problem, const Path& path, double rate_Hz, std::string_view certificate_sha256) {
-  return tables_of({problem.name, "", rate_Hz, certificate_sha256}, problem, move_rows(problem, path, rate_Hz));
+MoveTables move_tables(const Problem& problem, const Path& path, std::span<const TensionPiece> tensions, double rate_Hz,
+                       std::string_view certificate_sha256) {
+  return tables_of({problem.name, "", rate_Hz, certificate_sha256}, problem,
+                   move_rows(problem, path, tensions, rate_Hz));
 }
 
 MoveRows move_rows(std::span<const MoveLeg> legs, double rate_Hz) {
   MoveRows rows;
-  for (const MoveLeg& leg : legs) append(move_rows(leg.problem, leg.path, rate_Hz), rows);
+  for (const MoveLeg& leg : legs) append(move_rows(leg.problem, leg.path, leg.tensions, rate_Hz), rows);
   return rows;
 }
 
@@ -202,7 +241,7 @@ MoveTables move_tables(std::span<const MoveLeg> legs, const std::string& name, d
       legs.size());
   for (const MoveLeg& leg : legs) {
     const double start = rows.poses.empty() ? 0 : rows.poses.back()[0];
-    append(move_rows(leg.problem, leg.path, rate_Hz), rows);
+    append(move_rows(leg.problem, leg.path, leg.tensions, rate_Hz), rows);
     text += fmt::format("# leg {}: from {} s to {} s\n", sanitize(leg.name), start, rows.poses.back()[0]);
   }
   return tables_of({name, text, rate_Hz, certificate_sha256}, legs.front().problem, rows);

@@ -479,10 +479,12 @@ class PathFile::Implementation {
         unknown.push_back(excerpt(name));
       }
     }
-    const auto is_rate = [](const std::string& name) {
-      return name.size() == 2 && (name[0] == 'v' || name[0] == 'a') && name[1] >= '1' && name[1] <= '6';
+    const auto is_of_winches = [](const std::string& name) {
+      if (name.empty() || name.back() < '1' || name.back() > '6') return false;
+      const std::string what = name.substr(0, name.size() - 1);
+      return what == "v" || what == "a" || what == "fmin" || what == "fmax";
     };
-    if (!unknown.empty() && std::ranges::all_of(unknown, is_rate)) {
+    if (!unknown.empty() && std::ranges::all_of(unknown, is_of_winches)) {
       fail("", fmt::format(
                    "got the column '{}', a rate of a winch, expected a path: of a winches.csv of taut its columns t "
                    "and l1 to l6 alone, or the poses.csv beside it",

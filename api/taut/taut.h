@@ -345,8 +345,10 @@ class TAUT_EXPORT Certificate {
   /// 200,000 rows.
   [[nodiscard]] std::string controller_csv(double step_m = 0.01) const;
   /// A proved move in time, for the drives that follow it (docs/moves.md): t; lengths l1 … l6 [m], and their first two
-  /// derivatives v1 … [m/s] and a1 … [m/s^2]. Rows are at t = 0, 1/rate, 2/rate, … and where the move ends. They are on
-  /// the move but for rounding; what drives do between them is not proved. Of legs, times go on from leg to leg.
+  /// derivatives v1 … [m/s] and a1 … [m/s^2]; and fmin1 … and fmax1 … [N], between which each tension is proved to be
+  /// from the row to the next, for all loads and deviations. Rows are at t = 0, 1/rate, 2/rate, … and where the move
+  /// ends. They are on the move but for rounding; what drives do between them is proved where the case says so
+  /// (between_rows). Of legs, times go on from leg to leg.
   /// @throws InputError unless the theorem is there and says "proved" of a move, and `rate_Hz` is above 0, at most
   /// 10,000, and low enough for 500,000 rows.
   [[nodiscard]] Table winches(double rate_Hz = 100) const;

@@ -279,6 +279,8 @@ class Winches:
     length_m: Floats            #: (n, 6)
     speed_m_s: Floats           #: (n, 6): of the lengths
     acceleration_m_s2: Floats   #: (n, 6)
+    least_tension_N: Floats     #: (n, 6): of all places from the row to the next, all loads and deviations, as proved
+    greatest_tension_N: Floats  #: (n, 6): likewise
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -437,16 +439,16 @@ class Certificate:
         return self._certificate.controller_csv(step)
 
     def winches(self, rate: float = 100.0) -> Winches:
-        """Lengths, speeds and accelerations of the cables of a proved move in time (docs/moves.md).
+        """Lengths, speeds, accelerations and proved tensions of the cables of a move in time (docs/moves.md).
 
         Rows are at t = 0, 1/rate, 2/rate, … and where the move ends. They are on the move but for rounding; what drives
-        do between them is not proved. For legs, times go on from leg to leg.
+        do between them is proved where the case says so (`between_rows`). For legs, times go on from leg to leg.
 
         :param rate: rows a second, up to 10,000
         :raises InputError: unless the certificate has a theorem that a move is proved
         """
         rows = self._certificate.winches(rate)
-        return Winches(rows[:, 0], rows[:, 1:7], rows[:, 7:13], rows[:, 13:])
+        return Winches(rows[:, 0], rows[:, 1:7], rows[:, 7:13], rows[:, 13:19], rows[:, 19:25], rows[:, 25:])
 
     def poses(self, rate: float = 100.0) -> Poses:
         """The same rows as poses."""

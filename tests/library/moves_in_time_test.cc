@@ -347,7 +347,7 @@ TEST(MoveInTime, SaysWhatIsWrong) {
 TEST(MoveInTime, HasTablesInNumbersAndInText) {
   constexpr double kRate = 20;
   const taut::Table winches = planned().winches(kRate), poses = planned().poses(kRate);
-  EXPECT_EQ(winches.columns.size(), 19U);
+  EXPECT_EQ(winches.columns.size(), 31U);
   EXPECT_EQ(poses.columns, (std::vector<std::string>{"t[s]", "px[m]", "py[m]", "pz[m]", "qx", "qy", "qz", "qw"}));
   ASSERT_EQ(rows(winches), rows(poses));
   const std::size_t last = rows(poses) - 1;
@@ -365,6 +365,28 @@ TEST(MoveInTime, HasTablesInNumbersAndInText) {
   const Certificate audited = taut::audit(crane(kLimits), planned().poses(1));
   EXPECT_EQ(audited.verdict(), Verdict::kProved) << audited.reason();
   EXPECT_FALSE(audited.duration_s());
+}
+
+TEST(MoveInTime, TensionsOfSamplesAreWithinThoseOfTheirRows) {
+  constexpr double kRate = 50;
+  const taut::Table table = planned().winches(kRate);
+  ASSERT_EQ(table.columns.size(), 31U);
+  EXPECT_EQ(std::pair(table.columns[19], table.columns[30]),
+            std::pair(std::string("fmin1[N]"), std::string("fmax6[N]")));
+  double widest = 0, tightest = 1e300;
+  for (const taut::Sample& sample : planned().samples(3000)) {
+    const auto row = std::min(static_cast<std::size_t>(*sample.time_s * kRate), rows(table) - 1);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const double least = at(table, row, 19 + i), greatest = at(table, row, 25 + i);
+      EXPECT_LE(least, sample.tension_lower_N[i] + 1e-6) << *sample.time_s;
+      EXPECT_GE(greatest, sample.tension_upper_N[i] - 1e-6) << *sample.time_s;
+      const double excess = greatest - least - (sample.tension_upper_N[i] - sample.tension_lower_N[i]);
+      widest = std::max(widest, excess);
+      tightest = std::min(tightest, excess);
+    }
+  }
+  EXPECT_LT(widest, 3e3) << "of 158 kN between the limits";
+  EXPECT_LT(tightest, 500);
 }
 
 TEST(MoveInTime, IsAuditedAsTheCommandDoesIt) {

@@ -436,7 +436,9 @@ class MovesInTime(unittest.TestCase):
         self.assertTrue(np.allclose(slopes, means, atol=1e-4))
         self.assertEqual(poses.p_m[-1].tolist(), [4, 0, 6])
         rows = [line for line in self.planned.winches_csv(50).splitlines() if not line.startswith("#")]
-        self.assertEqual([float(x) for x in rows[7].split(",")][13:], winches.acceleration_m_s2[6].tolist())
+        self.assertEqual([float(x) for x in rows[7].split(",")][13:19], winches.acceleration_m_s2[6].tolist())
+        self.assertEqual([float(x) for x in rows[7].split(",")][25:], winches.greatest_tension_N[6].tolist())
+        self.assertTrue((winches.least_tension_N < winches.greatest_tension_N).all())
         self.assertEqual(len(rows), n + 1)
         self.assertIn(self.planned.theorem.certificate_sha256, self.planned.poses_csv(50))
         self.assertIn("# t px py pz qx qy qz qw", self.planned.poses_tum())
