@@ -20,8 +20,9 @@ struct ProvedPath {
 /// @pre the checker has accepted it
 [[nodiscard]] ProvedPath proved_path(const Certificate& certificate);
 
-/// Tensions along all of it, for every load in K and every deviation within the tolerances: enclosed anew over pieces of
-/// the proof's boxes and cut by the margins, which are all that is said where a piece can't be enclosed; rounded outward.
+/// Tensions along all of it, for every load in K and every deviation within the tolerances: enclosed anew over pieces
+/// of the proof's boxes and cut by the margins, which are all that is said where a piece can't be enclosed; rounded
+/// outward.
 [[nodiscard]] std::vector<TensionPiece> tension_pieces(const ProvedPath& proved);
 /// Of a certificate that the checker has accepted. @throws as proved_path()
 [[nodiscard]] std::vector<TensionPiece> tension_pieces(const checker::CheckResult& checked);

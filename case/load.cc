@@ -188,7 +188,9 @@ class ItemReader {
   [[nodiscard]] Axes read_axes(const Map& item) const;
   [[nodiscard]] RationalVector read_at(const Map& item) const;
   [[nodiscard]] Rational read_at_tolerance(const Map& item) const;
-  [[nodiscard]] RationalVector read_inertia(const Field& field) const;
+  /// @param mass  the nominal one
+  [[nodiscard]] RationalVector read_inertia(const Field& field, const Rational& mass) const;
+  [[nodiscard]] RationalVector read_moments(const Field& field, const Rational& mass) const;
   [[nodiscard]] DiscOfVectors horizontal(RationalText radius) const;
   /// What a force up to `magnitude` adds where its point is known to a tolerance only: a moment in any direction.
   void add_moment_of_tolerance(const Map& item, const VectorSet& moments_at_one_metre, Axes axes);
@@ -293,7 +295,7 @@ void ItemReader::read_mass(const Map& item) {
   const Rational at_tolerance = read_at_tolerance(item);
   Weight weight{text_of(mass, lower), text_of(mass, upper), read_at(item), text_of(item.field(), at_tolerance)};
   if (const auto inertia = item.find("inertia")) {
-    const RationalVector box = read_inertia(*inertia);
+    const RationalVector box = read_inertia(*inertia, (lower + upper) / 2);
     if (in_time_) {
       weight.inertia_box = box;
     } else {
@@ -305,8 +307,39 @@ void ItemReader::read_mass(const Map& item) {
   add(item.field(), name_, std::move(weight));
 }
 
-RationalVector ItemReader::read_inertia(const Field& field) const {
-  const std::vector<Field> sides = field.map({"box"}).at("box").list(3, "the three lengths of a box");
+/// The sides of the evenly filled box of this mass that has these moments of inertia: I_x = m/12 (y² + z²) and so on.
+RationalVector ItemReader::read_moments(const Field& field, const Rational& mass) const {
+  const Unit unit = si_unit(Dimension::kInertia);
+  const std::vector<Field> entries = field.list(3, "three moments of inertia, about the axes of P");
+  const bool is_clear = units_[Dimension::kMass].name == "kg" && units_[Dimension::kLength].name == "m";
+  std::array<Rational, 3> moments;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool is_bare = entries[k].node().IsScalar() && !split_unit(entries[k].node().Scalar()).second;
+    if (is_bare && !is_clear) {
+      entries[k].fail(
+          fmt::format("a moment of inertia with its unit, one of {}, as 'units' has other masses or lengths",
+                      unit_names(Dimension::kInertia)));
+    }
+    moments[k] = read_rational(entries[k], unit);
+    if (moments[k] <= 0) entries[k].fail("a moment of inertia above zero");
+  }
+  RationalVector box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rational square = moments[(k + 1) % 3] + moments[(k + 2) % 3] - moments[k];
+    if (square <= 0) {
+      entries[k].fail("a moment of inertia below the sum of the other two, as every body with some extent has");
+    }
+    box[k] = text_of(entries[k], root_above(6 * square / mass));
+  }
+  return box;
+}
+
+RationalVector ItemReader::read_inertia(const Field& field, const Rational& mass) const {
+  const Map map = field.map({"box", "moments"});
+  const auto moments = map.find("moments");
+  if (moments && map.find("box")) moments->complain("got it beside 'box', expected one of them");
+  if (moments) return read_moments(*moments, mass);
+  const std::vector<Field> sides = map.at("box").list(3, "the three lengths of a box");
   RationalVector box;
   for (std::size_t k = 0; k < 3; ++k) {
     const Rational side = read_rational(sides[k], units_[Dimension::kLength]);

@@ -58,6 +58,12 @@ const std::vector<Unit>& units() {
         {Dimension::kAngularSpeed, "deg/s", d("1"), true},
         {Dimension::kAngularAcceleration, "rad/s^2", d("1")},
         {Dimension::kAngularAcceleration, "deg/s^2", d("1"), true},
+        {Dimension::kInertia, "kg*m^2", d("1")},
+        {Dimension::kInertia, "t*m^2", d("1e3")},
+        {Dimension::kInertia, "kg*cm^2", d("1e-4")},
+        {Dimension::kInertia, "kg*mm^2", d("1e-6")},
+        {Dimension::kInertia, "g*cm^2", d("1e-7")},
+        {Dimension::kInertia, "g*mm^2", d("1e-9")},
     };
     // Moments have no units with inches or feet: E divides by the moment's unit, and 1/0.0254 is no decimal.
     std::vector<Unit> moments;
@@ -93,6 +99,7 @@ const char* dimension_name(Dimension dimension) {
     case Dimension::kFrequency: return "frequency";
     case Dimension::kAngularSpeed: return "angular speed";
     case Dimension::kAngularAcceleration: return "angular acceleration";
+    case Dimension::kInertia: return "moment of inertia";
   }
   return "";
 }
@@ -126,9 +133,10 @@ Unit si_unit(Dimension dimension) {
     case Dimension::kPower: return *find_unit("W");
     case Dimension::kFrequency: return *find_unit("Hz");
     case Dimension::kAngularSpeed: return *find_unit("rad/s");
-    case Dimension::kAngularAcceleration: break;
+    case Dimension::kAngularAcceleration: return *find_unit("rad/s^2");
+    case Dimension::kInertia: break;
   }
-  return *find_unit("rad/s^2");
+  return *find_unit("kg*m^2");
 }
 
 std::pair<std::string, std::optional<Unit>> split_unit(const std::string& text) {

@@ -28,7 +28,8 @@ enum class Dimension {
   kPower,
   kFrequency,
   kAngularSpeed,
-  kAngularAcceleration
+  kAngularAcceleration,
+  kInertia
 };
 /// The number of dimensions that have a unit in `units:`.
 inline constexpr std::size_t kDimensionsOfUnits = 6;
@@ -49,7 +50,7 @@ struct Unit {
 [[nodiscard]] std::string unit_names(Dimension dimension);
 
 [[nodiscard]] std::optional<Unit> find_unit(std::string_view name);
-/// m, N, N*m, kg, rad, s, m/s^2, m^2, m/s, kg/m^3, m/s^3, W, Hz, rad/s, rad/s^2.
+/// m, N, N*m, kg, rad, s, m/s^2, m^2, m/s, kg/m^3, m/s^3, W, Hz, rad/s, rad/s^2, kg*m^2.
 [[nodiscard]] Unit si_unit(Dimension dimension);
 
 /// The units of numbers that a case states without one, in which results are shown as well.

@@ -166,8 +166,24 @@ std::string inertia_text(const LoadText& load) {
       continue;
     }
     std::vector<std::string> sides;
-    for (const RationalText& side : *weight->inertia_box) sides.push_back(rational_text(parse_rational(side)));
-    boxes.push_back(fmt::format("{} as an evenly filled box of {} m", name, fmt::join(sides, " × ")));
+    std::array<double, 3> squares{};
+    bool is_typed = true;  // else they were made of moments of inertia
+    constexpr std::size_t kTyped = 12;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const RationalText& side = (*weight->inertia_box)[k];
+      is_typed = is_typed && side.size() < kTyped;
+      squares[k] = std::pow(from_rational<double>(side), 2);
+      sides.push_back(side.size() < kTyped ? rational_text(parse_rational(side))
+                                           : fmt::format("{:.6g}", from_rational<double>(side)));
+    }
+    std::string text = fmt::format("{} as an evenly filled box of {} m", name, fmt::join(sides, " × "));
+    if (!is_typed) {
+      const double twelfth =
+          (from_rational<double>(weight->mass_lower) + from_rational<double>(weight->mass_upper)) / 24;
+      text += fmt::format(" (moments of inertia {:.6g}, {:.6g} and {:.6g} kg·m²)", twelfth * (squares[1] + squares[2]),
+                          twelfth * (squares[2] + squares[0]), twelfth * (squares[0] + squares[1]));
+    }
+    boxes.push_back(text);
   }
   if (!points.empty()) {
     boxes.push_back(

@@ -190,6 +190,31 @@ TEST(CaseTime, HasBareNumbersInUnitsThatAreClear) {
   rejects("time: min", "time: {load: {angular_speed: 1}}\n");
 }
 
+/// The box that stands for moments of inertia has them, to 12 digits, and none of less.
+RC_GTEST_PROP(CaseTimeLaws, MomentsOfInertiaAreThoseOfTheirBox, ()) {
+  const auto part = [] { return *rc::gen::inRange<long>(1, 1'000'000); };
+  const std::array<long, 3> squares = {part(), part(), part()};  // of sides, up to a factor: no moment is too large
+  std::array<Rational, 3> moments;
+  for (std::size_t k = 0; k < 3; ++k) moments[k] = Rational(squares[(k + 1) % 3] + squares[(k + 2) % 3]);
+  TimeSections sections;
+  const std::string old = "inertia: {box: [2.4, 1/3, 260 cm]}";
+  sections.load.replace(
+      sections.load.find(old), old.size(),
+      fmt::format("mass_tolerance: 2 %, inertia: {{moments: [{} kg*m^2, {} t*m^2, {} kg*cm^2]}}", moments[0].str(),
+                  Rational(moments[1] / 1000).str(), Rational(moments[2] * 10000).str()));
+  const Case read = parse(sections);
+  const Weight weight = std::get<Weight>(read.problem.load.items.at(1).what);
+  std::array<Rational, 3> side;
+  for (std::size_t k = 0; k < 3; ++k) side[k] = parse_rational(weight.inertia_box.value()[k]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rational& a = side[(k + 1) % 3];
+    const Rational& b = side[(k + 2) % 3];
+    const Rational of_box = Rational(12000, 12) * (a * a + b * b);
+    RC_ASSERT(of_box >= moments[k]);
+    RC_ASSERT(of_box - moments[k] <= moments[k] * Rational(3, 1'000'000'000'000));
+  }
+}
+
 TEST(CaseTime, MakesBoxesOfInertiaAPartOfTheLoad) {
   TimeSections sections;
   const Case in_time = parse(sections);
@@ -344,6 +369,20 @@ TEST(CaseTime, RefusesBoxesThatAreNone) {
            {"{box: 2}", "load.items[payload].inertia.box: got '2', expected the three lengths of a box"},
            {"{box: [2, 1, nan]}", "load.items[payload].inertia.box[2]: got 'nan', expected a length"},
            {"{ball: 2}", "load.items[payload].inertia: got the unknown key 'ball'"},
+           {"{box: [1, 1, 1], moments: [1 kg*m^2, 1 kg*m^2, 1 kg*m^2]}",
+            "load.items[payload].inertia.moments: got it beside 'box', expected one of them"},
+           {"{moments: [1, 1 kg*m^2, 1 kg*m^2]}",
+            "load.items[payload].inertia.moments[0]: got '1', expected a moment of inertia with its unit, one of "
+            "kg*m^2"},
+           {"{moments: [1 kg*m^2, 1 kg*m^2, 2 kg*m^2]}",
+            "load.items[payload].inertia.moments[2]: got '2 kg*m^2', expected a moment of inertia below the sum of"},
+           {"{moments: [7 t*m^2, 1 t*m^2, 2 t*m^2]}",
+            "load.items[payload].inertia.moments[0]: got '7 t*m^2', expected a moment of inertia below the sum of"},
+           {"{moments: [1 kg*m^2, 0 kg*m^2, 1 kg*m^2]}",
+            "load.items[payload].inertia.moments[1]: got '0 kg*m^2', expected a moment of inertia above zero"},
+           {"{moments: [1 kg*m^2, 1 kg*m^2]}",
+            "load.items[payload].inertia.moments: got [1 kg*m^2, 1 kg*m^2], expected three moments of inertia"},
+           {"{moments: [1 kg, 1 kg*m^2, 1 kg*m^2]}", "load.items[payload].inertia.moments[0]: got '1 kg'"},
            {"{}", "load.items[payload].inertia: got no 'box'"}}) {
     for (const bool in_time : {true, false}) {
       if (!in_time && box.find("km") != std::string::npos) continue;

@@ -150,7 +150,7 @@ TEST(Units, AreSplitOnlyFromValues) {
 }
 
 TEST(Units, OfSiHaveTheFactorOne) {
-  for (int i = 0; i <= static_cast<int>(Dimension::kAngularAcceleration); ++i) {
+  for (int i = 0; i <= static_cast<int>(Dimension::kInertia); ++i) {
     const auto dimension = static_cast<Dimension>(i);
     const Unit unit = si_unit(dimension);
     EXPECT_EQ(unit.dimension, dimension) << unit.name;

@@ -286,7 +286,7 @@ TEST(PathFile, AFittedMoveHasRollPitchAndYawInAnyCase) {
 
 TEST(PathFile, ATableOfWinchRatesIsNoPath) {
   expect_rejected(
-      "t[s],l1[m],l2[m],l3[m],l4[m],l5[m],l6[m],v1[m/s],a1[m/s^2]\n0,1,1,1,1,1,1,0,0\n",
+      "t[s],l1[m],l2[m],l3[m],l4[m],l5[m],l6[m],v1[m/s],a1[m/s^2],fmin1[N],fmax6[N]\n0,1,1,1,1,1,1,0,0,9,9\n",
       "got the column 'v1', a rate of a winch, expected a path: of a winches.csv of taut its columns t and l1 "
       "to l6 alone, or the poses.csv beside it");
   expect_rejected("phi[rad],theta[rad],v7\n", "got the unknown column 'v7'");

@@ -54,6 +54,14 @@ TEST(TimeStatement, NamesBoxesAndPointMasses) {
             "evenly filled box of 0.05 × 0.05 × 0.04 m; 'probe' as a point mass.");
 }
 
+TEST(TimeStatement, SaysMomentsOfInertiaOfBoxesThatWereMadeOfThem) {
+  LoadText load;
+  load.items = {{"payload", Weight{"11", "13", {"0", "0", "0"}, "0", RationalVector{"1.4142135623731", "2", "1/2"}}}};
+  EXPECT_THAT(inertia_text(load),
+              HasSubstr("'payload' as an evenly filled box of 1.41421 × 2 × 0.5 m (moments of inertia "
+                        "4.25, 2.25 and 6 kg·m²)."));
+}
+
 TEST(TimeStatement, StandsOnTheFirstPageOfAMoveOnly) {
   const ReportContext scene = sample::scene(sample::timed());
   const Summary s(scene, {});
