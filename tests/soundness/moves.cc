@@ -549,8 +549,12 @@ class MoveJudge {
     if ((all.determinant > BigFloat(0.0)) != positive_) breach(fmt::format("proved, but singular {}", where));
   }
   [[nodiscard]] BigFloat tolerance(std::size_t id) const {
-    constexpr double kLeastSize = 1e-8;  // of a path that stays where it is, rates are 0
-    return BigFloat(kError) * BigFloat(std::max({std::abs(low_[id]), std::abs(high_[id]), kLeastSize}));
+    constexpr double kLeastSpeed = 1e-8;  // of a path that stays where it is, rates are 0
+    double least = kLeastSpeed;
+    if (is_power(id)) {  // tensions times such a speed
+      for (std::size_t k = 0; k < 2 * kCables; ++k) least = std::max(least, kLeastSpeed * std::abs(high_[k]));
+    }
+    return BigFloat(kError) * BigFloat(std::max({std::abs(low_[id]), std::abs(high_[id]), least}));
   }
 
   void examine_proof() {
