@@ -856,64 +856,68 @@ Table table_of(const std::array<std::string_view, kColumns>& columns,
   return table;
 }
 
+/// Whether a table is asked for proved tensions, which take a while.
+enum class Tensions { kNeeded, kNotNeeded };
+
+std::vector<TensionPiece> pieces_of(const Certificate& certificate, Tensions tensions) {
+  if (tensions == Tensions::kNotNeeded) return {};
+  return tension_pieces(certificate.content().checked);
+}
+
 /// The legs of a certificate of legs.
-std::vector<MoveLeg> moves_of(const Certificate& certificate) {
+std::vector<MoveLeg> moves_of(const Certificate& certificate, Tensions tensions) {
   std::vector<MoveLeg> result;
   for (const auto& [name, leg] : certificate.content().legs) {
     const taut::Certificate& stated = leg.content().stated;
-    result.push_back({stated.problem, stated.path, name, tension_pieces(leg.content().checked)});
+    result.push_back({stated.problem, stated.path, name, pieces_of(leg, tensions)});
   }
   return result;
 }
 
-MoveRows pose_rows_of(const Certificate& certificate, double rate_Hz) {
-  require_move_table(certificate, rate_Hz, "poses");
-  const taut::Certificate& stated = certificate.content().stated;
-  if (certificate.content().legs.empty()) return move_rows(stated.problem, stated.path, {}, rate_Hz);
-  std::vector<MoveLeg> legs;
-  for (const auto& [name, leg] : certificate.content().legs) {
-    legs.push_back({leg.content().stated.problem, leg.content().stated.path, name, {}});
-  }
-  return move_rows(legs, rate_Hz);
-}
-
-MoveRows winch_rows_of(const Certificate& certificate, double rate_Hz) {
-  require_move_table(certificate, rate_Hz, "winches");
-  const taut::Certificate& stated = certificate.content().stated;
-  const std::vector<MoveLeg> legs = moves_of(certificate);
-  if (!legs.empty()) return move_rows(legs, rate_Hz);
-  return move_rows(stated.problem, stated.path, tension_pieces(certificate.content().checked), rate_Hz);
-}
-
-MoveTables move_tables_of(const Certificate& certificate, double rate_Hz, const char* table) {
+MoveRows move_rows_of(const Certificate& certificate, double rate_Hz, const char* table, Tensions tensions) {
   require_move_table(certificate, rate_Hz, table);
-  const Certificate::Content& content = certificate.content();
-  const std::vector<MoveLeg> legs = moves_of(certificate);
-  if (!legs.empty()) return move_tables(legs, content.stated.problem.name, rate_Hz, content.checked.sha256);
-  const taut::Certificate& stated = content.stated;
-  return move_tables(stated.problem, stated.path, tension_pieces(content.checked), rate_Hz, content.checked.sha256);
+  const taut::Certificate& stated = certificate.content().stated;
+  const std::vector<MoveLeg> legs = moves_of(certificate, tensions);
+  if (!legs.empty()) return move_rows(legs, rate_Hz);
+  return move_rows(stated.problem, stated.path, pieces_of(certificate, tensions), rate_Hz);
+}
+
+MoveTables move_tables_of(const Certificate& certificate, double rate_Hz, const char* table, Tensions tensions) {
+  require_move_table(certificate, rate_Hz, table);
+  const taut::Certificate& stated = certificate.content().stated;
+  const std::string& sha256 = certificate.content().checked.sha256;
+  const std::vector<MoveLeg> legs = moves_of(certificate, tensions);
+  if (!legs.empty()) return move_tables(legs, stated.problem.name, rate_Hz, sha256);
+  return move_tables(stated.problem, stated.path, pieces_of(certificate, tensions), rate_Hz, sha256);
 }
 
 }  // namespace
 
 Table Certificate::winches(double rate_Hz) const {
-  return within(ErrorCode::kUse, [&] { return table_of(kWinchColumns, winch_rows_of(*this, rate_Hz).winches); });
+  return within(ErrorCode::kUse, [&] {
+    return table_of(kWinchColumns, move_rows_of(*this, rate_Hz, "winches", Tensions::kNeeded).winches);
+  });
 }
 
 Table Certificate::poses(double rate_Hz) const {
-  return within(ErrorCode::kUse, [&] { return table_of(kPoseColumns, pose_rows_of(*this, rate_Hz).poses); });
+  return within(ErrorCode::kUse, [&] {
+    return table_of(kPoseColumns, move_rows_of(*this, rate_Hz, "poses", Tensions::kNotNeeded).poses);
+  });
 }
 
 std::string Certificate::winches_csv(double rate_Hz) const {
-  return within(ErrorCode::kUse, [&] { return move_tables_of(*this, rate_Hz, "winches_csv").winches_csv; });
+  return within(ErrorCode::kUse,
+                [&] { return move_tables_of(*this, rate_Hz, "winches_csv", Tensions::kNeeded).winches_csv; });
 }
 
 std::string Certificate::poses_csv(double rate_Hz) const {
-  return within(ErrorCode::kUse, [&] { return move_tables_of(*this, rate_Hz, "poses_csv").poses_csv; });
+  return within(ErrorCode::kUse,
+                [&] { return move_tables_of(*this, rate_Hz, "poses_csv", Tensions::kNotNeeded).poses_csv; });
 }
 
 std::string Certificate::poses_tum(double rate_Hz) const {
-  return within(ErrorCode::kUse, [&] { return move_tables_of(*this, rate_Hz, "poses_tum").poses_tum; });
+  return within(ErrorCode::kUse,
+                [&] { return move_tables_of(*this, rate_Hz, "poses_tum", Tensions::kNotNeeded).poses_tum; });
 }
 
 std::size_t Certificate::segments() const {

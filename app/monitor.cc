@@ -13,6 +13,7 @@
 #include "kinematics/time_law.h"
 #include "problem/decimal.h"
 #include "problem/expression.h"
+#include "problem/rows.h"
 #include "reports/summary/numbers.h"
 
 namespace taut {
@@ -25,18 +26,13 @@ double norm_of(const std::array<DecimalText, 3>& text) {
   return Vector3<double>(nearest_double(text[0]), nearest_double(text[1]), nearest_double(text[2])).norm();
 }
 
-/// Bodies say nothing of tensions.
-ProvedPath without_bodies(ProvedPath proved) {
-  proved.problem.bodies.reset();
-  return proved;
-}
-
 /// How far the length of cable i of a real machine may be from the commanded one [m].
 double length_tolerance(const Problem& problem, const ToleranceNumbers& tolerances, std::size_t i) {
   const double ends = tolerances.platform_anchor[i] + tolerances.base_anchor[i];
   const double tracking = tolerances.position + tolerances.orientation * (norm_of(problem.robot.platform_anchors_m[i]) +
                                                                           tolerances.platform_anchor[i]);
-  const double by_rows = problem.time && problem.time->rows ? nearest_double(problem.time->rows->error_m[i]) : 0;
+  const RowsText* const rows = stated_rows(problem);
+  const double by_rows = rows != nullptr ? nearest_double(rows->error_m[i]) : 0;
   return by_rows + tracking + (tolerances.cable_length ? (*tolerances.cable_length)[i] : ends);
 }
 
@@ -62,9 +58,10 @@ std::pair<double, double> led_by(const Model<double>& model, const RigidPose& po
 /// Of a machine whose pose is tracked: where straight lengths between rows lead it is added to how far it may be off.
 ToleranceNumbers tolerances_of(const ProvedPath& proved, const PoseSampler& sampler) {
   ToleranceNumbers result = tolerance_numbers(proved.problem);
-  if (result.cable_length || !proved.problem.time || !proved.problem.time->rows) return result;
+  const RowsText* const rows = stated_rows(proved.problem);
+  if (result.cable_length || rows == nullptr) return result;
   std::array<double, kCables> errors;
-  for (std::size_t i = 0; i < kCables; ++i) errors[i] = nearest_double(proved.problem.time->rows->error_m[i]);
+  std::ranges::transform(rows->error_m, errors.begin(), [](const DecimalText& x) { return nearest_double(x); });
   double position = 0, turn = 0;
   constexpr int kPlaces = 32;  // of a segment
   for (std::size_t k = 0; k < proved.path.segments(); ++k) {
@@ -103,13 +100,7 @@ namespace {
 
 PlaceTable make_table(const ProvedPath& proved, const PoseSampler& sampler,
                       const std::array<double, kCables>& length_allowed, double position, double turn) {
-  std::vector<PlaceTable::Piece> pieces;
-  for (const TensionPiece& piece : tension_pieces(proved)) {
-    PlaceTable::Piece& place = pieces.emplace_back();
-    place.places = {piece.lower, piece.upper};
-    for (std::size_t i = 0; i < kCables; ++i) place.tension[i] = {piece.tension[i][0], piece.tension[i][1]};
-  }
-  return {sampler, proved.path, std::move(pieces), {length_allowed, position, chord(turn)}};
+  return {sampler, proved.path, tension_pieces(proved), {length_allowed, position, chord(turn)}};
 }
 
 std::array<double, kCables> allowed_of(const Problem& problem, const GaugeErrors& errors) {
@@ -124,7 +115,7 @@ std::array<double, kCables> allowed_of(const Problem& problem, const GaugeErrors
 }  // namespace
 
 Monitor::Monitor(ProvedPath proved, const GaugeErrors& errors)
-    : proved_(without_bodies(std::move(proved))),
+    : proved_(std::move(proved)),
       errors_(errors),
       sampler_(proved_.problem),
       tolerances_(tolerances_of(proved_, sampler_)),
@@ -363,9 +354,9 @@ std::vector<Alarm> Monitor::check_tensions(const MeasuredRow& row, const PlaceIn
   if (std::ranges::none_of(row.tension_N, [](const auto& tension) { return tension.has_value(); })) return {};
   constexpr double kShareOfRounding = 1e-12;
   const auto share_in = [&](const PlaceTable::Piece& piece, std::size_t i) {
-    const double middle = 0.5 * (piece.tension[i].lower + piece.tension[i].upper);
-    const double half = 0.5 * (piece.tension[i].upper - piece.tension[i].lower) + errors_.tension_N +
-                        kShareOfRounding * std::abs(middle);
+    const double middle = 0.5 * (piece.tension[i][0] + piece.tension[i][1]);
+    const double half =
+        0.5 * (piece.tension[i][1] - piece.tension[i][0]) + errors_.tension_N + kShareOfRounding * std::abs(middle);
     return std::abs(*row.tension_N[i] - middle) / half;
   };
   // That piece in which the worst of all tensions is best.
@@ -376,7 +367,7 @@ std::vector<Alarm> Monitor::check_tensions(const MeasuredRow& row, const PlaceIn
     for (std::size_t i = 0; i < kCables; ++i) {
       if (row.tension_N[i]) worst = std::max(worst, share_in(piece, i));
     }
-    const double distance = std::max({0.0, piece.places.lower - s, s - piece.places.upper});
+    const double distance = std::max({0.0, piece.lower - s, s - piece.upper});
     // Of pieces without an alarm the nearest.
     const double rank = std::max(worst, 1.0);
     if (rank < least || (rank == least && distance < least_distance)) {
@@ -393,8 +384,8 @@ std::vector<Alarm> Monitor::check_tensions(const MeasuredRow& row, const PlaceIn
     alarm.kind = AlarmKind::kTension;
     alarm.cable = static_cast<int>(i);
     alarm.measured = *row.tension_N[i];
-    alarm.lower = best->tension[i].lower - errors_.tension_N;
-    alarm.upper = best->tension[i].upper + errors_.tension_N;
+    alarm.lower = best->tension[i][0] - errors_.tension_N;
+    alarm.upper = best->tension[i][1] + errors_.tension_N;
     alarms.push_back(alarm);
   }
   return alarms;

@@ -66,11 +66,11 @@ PlaceTable::PlaceTable(const PoseSampler& sampler, const Path& path, std::vector
   std::size_t index = path.segments();  // none yet
   Segment segment;
   for (const Piece& piece : pieces_) {
-    const auto k = std::min(static_cast<std::size_t>(piece.places.lower), path.segments() - 1);
+    const auto k = std::min(static_cast<std::size_t>(piece.lower), path.segments() - 1);
     if (k != index) segment = path.segment(index = k);
     const auto from = static_cast<double>(k);
-    if (nodes_.empty()) nodes_.push_back(node_at(sampler, segment, piece.places.lower - from));
-    append(sampler, segment, node_at(sampler, segment, piece.places.upper - from), resolution, 0);
+    if (nodes_.empty()) nodes_.push_back(node_at(sampler, segment, piece.lower - from));
+    append(sampler, segment, node_at(sampler, segment, piece.upper - from), resolution, 0);
   }
 }
 
@@ -117,9 +117,9 @@ std::size_t PlaceTable::cell_at(double s) const {
 
 std::span<const PlaceTable::Piece> PlaceTable::pieces_at(const PlaceInterval& places) const {
   const auto first = std::partition_point(pieces_.begin(), pieces_.end(),
-                                          [&](const Piece& piece) { return piece.places.upper < places.lower; });
-  const auto end = std::partition_point(first, pieces_.end(),
-                                        [&](const Piece& piece) { return piece.places.lower <= places.upper; });
+                                          [&](const Piece& piece) { return piece.upper < places.lower; });
+  const auto end =
+      std::partition_point(first, pieces_.end(), [&](const Piece& piece) { return piece.lower <= places.upper; });
   return {first, end};
 }
 

@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
-#include "certify/box_ranges.h"
 #include "kinematics/pose_sampler.h"
+#include "path_io/move_tables.h"
 
 namespace taut {
 
@@ -50,18 +50,15 @@ class PlaceTable {
     RigidPose pose;                        ///< of the robot as stated; q runs on without a change of sign
     std::array<double, kCables> length{};  ///< that it commands [m]
   };
-  /// The pieces between which tensions are known, in order and without gaps.
-  struct Piece {
-    PlaceInterval places;
-    std::array<Range, kCables> tension;  ///< [N]
-  };
+  using Piece = TensionPiece;
   /// What slacks are to be small against, each at least 10⁻⁷ [m, m, 1].
   struct Resolution {
     std::array<double, kCables> length{};
     double position = 0, turn = 0;
   };
 
-  /// @param pieces  those at which nodes have to be; the first begins at 0 and the last ends at path.segments().
+  /// @param pieces  in order and without gaps: nodes have to be where they meet; the first begins at 0 and the last
+  /// ends at path.segments().
   PlaceTable(const PoseSampler& sampler, const Path& path, std::vector<Piece> pieces, const Resolution& resolution);
 
   [[nodiscard]] std::size_t cells() const { return cells_.size(); }

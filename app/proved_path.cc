@@ -68,19 +68,19 @@ ProvedPath proved_path(const Certificate& certificate) {
   return result;
 }
 
-std::vector<TensionPiece> tension_pieces(const ProvedPath& stated) {
-  ProvedPath proved = stated;
-  proved.problem.bodies.reset();  // they say nothing of tensions
+std::vector<TensionPiece> tension_pieces(const ProvedPath& proved) {
+  Problem problem = proved.problem;
+  problem.bodies.reset();  // they say nothing of tensions
   const std::vector<std::vector<DyadicBox>> boxes = halved_boxes(proved.boxes);
   std::size_t count = 0;
   for (const auto& segment : boxes) count += segment.size();
   RangeOptions options;
   if (count > kManyBoxes) options.most_halvings = 0;
-  const PathRanges ranges = path_ranges(Prover(proved.problem), proved.path, boxes, options);
+  const PathRanges ranges = path_ranges(Prover(problem), proved.path, boxes, options);
   std::vector<TensionPiece> result;
   for (std::size_t k = 0; k < proved.path.segments(); ++k) {
     const auto from = static_cast<double>(k);
-    const TensionPiece::Ranges by_margin = ranges_by_margin(proved.problem.robot, proved.margins[k]);
+    const TensionPiece::Ranges by_margin = ranges_by_margin(problem.robot, proved.margins[k]);
     double reached = 0;
     const auto fill_to = [&](double s) {
       if (s > reached) result.push_back({from + reached, from + s, by_margin});

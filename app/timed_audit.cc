@@ -292,9 +292,9 @@ class TableReader {
       off_m[i] = Rational(rounding_.position_m) + Rational(rounding_.angle_rad) * Rational(model.p_PB[i].norm()) +
                  Rational(rounding_.length_m);
     }
-    const Rational rounding = Rational(1) / 1'000'000'000;  // of times
-    const Rational usual = Decimal::parse(problem_.time->rows->step_s).rational();
-    problem_.time->rows = rows_between(*problem_.time, std::max(usual, Rational(step + rounding)), off_m);
+    const Rational usual = parse_rational(problem_.time->rows->step_s);
+    const Rational rounded = step + parse_rational(kRowRounding_s);
+    problem_.time->rows = rows_between(*problem_.time, std::max(usual, rounded), off_m);
     const TimeLimits limits = make_time_limits(problem_);
     double jump_m_s = 0;
     for (std::size_t i = 0; i < kCables; ++i) {
@@ -376,8 +376,7 @@ std::string row_sentence(const FittedTable& table) {
   if (table.jump_m_s) {
     return fmt::format(
         "{}{} The move is what is audited, and lengths that run straight from row to row of such a table; limits in "
-        "time "
-        "are those of the move. At a row these lengths may change their speed by up to {}/s at once: how far that "
+        "time are those of the move. At a row these lengths may change their speed by up to {}/s at once: how far that "
         "accelerates the load is what the case's item 'acceleration' has to cover.",
         within, zero, millimetres_above(*table.jump_m_s));
   }

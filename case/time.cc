@@ -131,11 +131,10 @@ RowsText read_between_rows(const Field& field, const TimeText& limits, const Rat
         "got no item 'acceleration' in the load, expected one: lengths that run straight from row to row change their "
         "speed at each row, and how far that accelerates the load, as the machine follows them, has to be stated");
   }
-  const Rational rounding = Rational(1) / 1'000'000'000;
   if (rate_Hz * kMostStep_s < 1)
     field.complain(fmt::format("got it with a rate below 1/{} Hz, expected more", kMostStep_s));
   try {
-    return rows_between(limits, 1 / rate_Hz + rounding, {});
+    return rows_between(limits, 1 / rate_Hz + parse_rational(kRowRounding_s), {});
   } catch (const FieldError& error) {
     field.complain(fmt::format("got {}, {}", error.seen(), error.expected()));
   }

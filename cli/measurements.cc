@@ -128,7 +128,8 @@ MeasurementTable::Column MeasurementTable::column(std::string_view cell, const s
   const bool is_numbered = name.size() == 2 && name[1] >= '1' && name[1] <= '6';
   const auto number = [&](std::string_view names) { return names.find(name[1]); };
   const bool is_commanded_rate = is_numbered && (name[0] == 'v' || name[0] == 'a');
-  const bool is_proved_tension = name.size() == 5 && (name.starts_with("fmin") || name.starts_with("fmax"));
+  const bool is_proved_tension = name.size() == 5 && (name.starts_with("fmin") || name.starts_with("fmax")) &&
+                                 name.back() >= '1' && name.back() <= '6';
   if (name == "segment" || name == "s" || is_commanded_rate || is_proved_tension) return result;
   if (name == "t" || name == "time") {
     result.role = Role::kTime;

@@ -9,6 +9,7 @@
 
 #include "kinematics/jet.h"
 #include "kinematics/statics.h"
+#include "problem/rows.h"
 
 namespace taut {
 
@@ -131,8 +132,6 @@ struct Sizes {
   std::array<double, 6> wrench{};
 };
 
-bool has_rows(const Problem& problem) { return problem.time && problem.time->rows; }
-
 Sizes sizes_of(const Problem& problem) {
   const std::optional<TolerancesText>& tolerances = problem.tolerances;
   Sizes result;
@@ -141,8 +140,8 @@ Sizes sizes_of(const Problem& problem) {
   std::ranges::transform(tolerances->platform_anchor_m, result.platform.begin(), number);
   std::ranges::transform(tolerances->wrench, result.wrench.begin(), number);
   if (tolerances->cable_length_m) std::ranges::transform(*tolerances->cable_length_m, result.length.begin(), number);
-  for (std::size_t i = 0; i < kCables && has_rows(problem); ++i) {
-    result.length[i] += number(problem.time->rows->error_m[i]);
+  if (const RowsText* const rows = stated_rows(problem)) {
+    for (std::size_t i = 0; i < kCables; ++i) result.length[i] += number(rows->error_m[i]);
   }
   result.load_point = number(tolerances->load_point_m);
   result.position = number(tolerances->position_m);
@@ -312,7 +311,7 @@ struct MarginDifferentiator::Data {
         sizes(sizes_of(of)),
         stated(stated_uncertainties(of)),
         anchors_lead(is_length_controlled),
-        lengths_lead(is_length_controlled || has_rows(of)) {}
+        lengths_lead(is_length_controlled || stated_rows(of) != nullptr) {}
 
   Problem problem;
   Model<double> plain;

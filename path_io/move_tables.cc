@@ -85,8 +85,7 @@ std::string between_rows(const Problem& problem, double rate_Hz) {
   if (are_proved(problem, limits, rate_Hz)) {
     return text +
            "# What is proved of tensions, lengths, clearances and singular poses holds for lengths that are so far "
-           "off. "
-           "Limits in time\n# are kept by the move itself.\n";
+           "off. Limits in time\n# are kept by the move itself.\n";
   }
   return text +
          "# How drives join the rows is no part of the certificate, unless a tolerance of cable lengths "
@@ -146,10 +145,11 @@ MoveTables tables_of(const Head& head, const Problem& problem, const MoveRows& r
 
 /// To each row, the least and the greatest tension of all pieces from its place to that of the next row.
 void add_tensions(std::span<const double> places, std::span<const TensionPiece> pieces, MoveRows& rows) {
-  constexpr double kRounding = 1e-12;  // of places, as shares
+  constexpr double kRounding = 1e-12;  // of places, and as a share of them
   std::size_t first = 0;
   for (std::size_t n = 0; n < places.size(); ++n) {
-    const double from = places[n] * (1 - kRounding), to = places[std::min(n + 1, places.size() - 1)] * (1 + kRounding);
+    const double next = places[std::min(n + 1, places.size() - 1)];
+    const double from = places[n] - kRounding * (1 + places[n]), to = next + kRounding * (1 + next);
     while (first + 1 < pieces.size() && pieces[first].upper < from) ++first;
     auto* const least = &rows.winches[n][kLeastTension];
     auto* const most = least + kCables;

@@ -9,8 +9,14 @@
 
 namespace taut {
 
-/// What may be left of error_m for rows that are rounded [m].
+/// What is left for rows that are rounded: of error_m, and of the time between two rows.
 inline constexpr const char* kRowRounding_m = "1e-9";
+inline constexpr const char* kRowRounding_s = "1e-9";
+
+/// Those that the problem states, or null.
+[[nodiscard]] inline const RowsText* stated_rows(const Problem& problem) {
+  return problem.time && problem.time->rows ? &*problem.time->rows : nullptr;
+}
 
 /// Rows at most so far apart, each within `off_m` of the lengths that path and law have at its time, and kRowRounding_m
 /// more; errors are rounded up to 1e-12 m. @throws FieldError unless all winches have a limit of acceleration that is a

@@ -40,8 +40,8 @@ constexpr std::array<Member<WinchLimits>, 3> kOfWinches = {{
 }};
 
 constexpr const char* kStoppingTime = "stopping_time_s";
-
 constexpr const char* kRows = "rows";
+
 bool has_limit(const WinchLimits& limits) {
   return std::ranges::any_of(limits, [](const Limit& limit) { return limit.has_value(); });
 }

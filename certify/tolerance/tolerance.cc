@@ -6,6 +6,7 @@
 
 #include "certify/loads/extremal_load.h"
 #include "problem/decimal.h"
+#include "problem/rows.h"
 
 namespace taut {
 
@@ -685,13 +686,13 @@ std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem) {
   if (!problem.tolerances) return std::nullopt;
   const TolerancesText& text = *problem.tolerances;
   const auto decimal = [](const DecimalText& x) { return above(I(ScalarTraits<I>::from_decimal(x))); };
-  const RowsText* const rows = problem.time && problem.time->rows ? &*problem.time->rows : nullptr;
+  const RowsText* const rows = stated_rows(problem);
   ToleranceModel<I> model;
   for (std::size_t i = 0; i < kCables; ++i) {
     model.base_anchor[i] = decimal(text.base_anchor_m[i]);
     model.platform_anchor[i] = decimal(text.platform_anchor_m[i]);
     model.cable_length[i] = text.cable_length_m ? decimal((*text.cable_length_m)[i]) : UpperOf<I>(0.0);
-    if (rows) model.cable_length[i] += decimal(rows->error_m[i]);
+    if (rows != nullptr) model.cable_length[i] += decimal(rows->error_m[i]);
     model.wrench(static_cast<int>(i)) = ScalarTraits<I>::from_decimal(text.wrench[i]);
   }
   model.load_point = decimal(text.load_point_m);
@@ -703,7 +704,7 @@ std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem) {
   model.orientation = above(evaluate_constant<I>(text.orientation_rad));
   if (text.cable_length_m) {
     model.lead = Lead::kByAnchors;
-  } else if (rows) {
+  } else if (rows != nullptr) {
     model.lead = Lead::kAsTyped;
   }
   return model;

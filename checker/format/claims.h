@@ -50,17 +50,14 @@ inline constexpr const char* kMayStopClause =
 inline constexpr const char* kRowsClause =
     " The lengths that are commanded may be those of a table: of rows from time 0 to the end of the law, of which "
     "neighbours are no farther apart in time than the stated step h, and which have lengths within e_i - a_i h^2 / 8 "
-    "of "
-    "the d_i that path and law command at their times of the machine as the problem states it, where e_i is the stated "
-    "error of rows and a_i the stated limit of acceleration of d_i; and from row to row they run straight in time. "
-    "They "
-    "are at each time within e_i of the d_i of path and law. All that is claimed of each machine, load and pose within "
-    "the tolerances holds, too, for every error of each length up to e_i. Of a length-controlled machine, it is added "
-    "to what the tolerances allow. Any other deviates within its tolerances from the pose to which these errors lead "
-    "as "
-    "they grow from zero, where the machine as the problem states it has such lengths. Velocities and accelerations "
-    "remain those of path and law: what a table's straight lengths accelerate beside that counts only as far as K "
-    "contains its forces. If the move is run slower, so is the table.";
+    "of the d_i that path and law command at their times of the machine as the problem states it, where e_i is the "
+    "stated error of rows and a_i the stated limit of acceleration of d_i; and from row to row they run straight in "
+    "time. They are at each time within e_i of the d_i of path and law. All that is claimed of each machine, load and "
+    "pose within the tolerances holds, too, for every error of each length up to e_i. Of a length-controlled machine, "
+    "it is added to what the tolerances allow. Any other deviates within its tolerances from the pose to which these "
+    "errors lead as they grow from zero, where the machine as the problem states it has such lengths. Velocities and "
+    "accelerations remain those of path and law: what a table's straight lengths accelerate beside that counts only "
+    "as far as K contains its forces. If the move is run slower, so is the table.";
 
 /// Follows "refuted", and the clause of items, where the path has a law in time.
 inline constexpr const char* kMoveRefutedClause =
@@ -99,8 +96,7 @@ inline constexpr const char* kContactClause =
     " Or, where the witness is of kind contact, the two bodies of its pair, of the machine as the problem states it, "
     "are "
     "not farther apart at the witness pose than the pair's clearance. The claim of a proved path includes that those "
-    "of "
-    "every checked pair are, for every machine, load and pose within the tolerances.";
+    "of every checked pair are, for every machine, load and pose within the tolerances.";
 
 /// Then follows which pairs are checked: bodies_clause().
 inline constexpr const char* kBodiesClause =
@@ -108,8 +104,7 @@ inline constexpr const char* kBodiesClause =
     "a "
     "cable is all points within half its diameter of the straight line between its anchors, but for what is nearer to "
     "an anchor than the stated free end; every cable of a checked pair is longer than its free ends together. As far "
-    "as "
-    "distances of bodies are concerned, anchors of cables that are stated at the same place and with the same "
+    "as distances of bodies are concerned, anchors of cables that are stated at the same place and with the same "
     "tolerance "
     "are one point, which deviates as one.";
 

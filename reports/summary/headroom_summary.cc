@@ -12,6 +12,7 @@
 #include "certify/severity.h"
 #include "problem/decimal.h"
 #include "problem/rational.h"
+#include "problem/rows.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/numbers.h"
 #include "reports/summary/sentences.h"
@@ -312,10 +313,10 @@ std::string tightest_sentence(const Headroom& headroom, const Problem& problem, 
   const std::string missing = is_proved  ? ""
                               : left > 0 ? fmt::format(" {} are left.", amount(left))
                                          : fmt::format(" {} are missing.", amount(-left));
-  const std::string rows = problem.time && problem.time->rows
-                               ? " Cable lengths take part as rows of a table leave them open, " +
-                                     row_error_text(*problem.time->rows) + " at most (time.between_rows)."
-                               : "";
+  const RowsText* const stated = stated_rows(problem);
+  const std::string rows = stated != nullptr ? " Cable lengths take part as rows of a table leave them open, " +
+                                                   row_error_text(*stated) + " at most (time.between_rows)."
+                                             : "";
   return fmt::format(
       "{}: {}. The nominal machine has a margin of {} there; of that take, to first order and in floating point: "
       "{}.{}{}",
@@ -327,7 +328,7 @@ std::string nominal_sentence(const Headroom& headroom, const Problem& problem, c
   if (*headroom.nominal_provable) return " The nominal machine, under the nominal load, is proved.";
   if (!headroom.nominal_violation) {
     return fmt::format(" Not even the nominal machine, under the nominal load{}, could be proved.",
-                       problem.time && problem.time->rows ? ", with lengths that are off between rows" : "");
+                       stated_rows(problem) != nullptr ? ", with lengths that are off between rows" : "");
   }
   return fmt::format(" The nominal machine itself breaks a limit: {}.",
                      violation_text(*headroom.nominal_violation, problem, units));

@@ -214,7 +214,7 @@ bool has(const RowVerdict& verdict, AlarmKind kind, int cable = -1) {
 TEST(PlaceTable, FindsThePlaceOfEachPoseAndOfItsLengths) {
   const ProvedPath& path = proved_path_of_crane();
   const PoseSampler sampler(path.problem);
-  const PlaceTable table(sampler, path.path, {{{0, 0.75}, {}}, {{0.75, 1}, {}}, {{1, 2}, {}}}, {});
+  const PlaceTable table(sampler, path.path, {{0, 0.75, {}}, {0.75, 1, {}}, {1, 2, {}}}, {});
   for (int k = 0; k <= 1000; ++k) {
     const double s = k * 0.002;
     const auto segment = static_cast<std::size_t>(std::min(s, 1.0));
