@@ -68,9 +68,9 @@ void measure(Kind& kind, const Prover& prover, const Path& path, int repeats) {
   long boxes = 0;
   kind.proved = 0;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    for (std::size_t k = 0; k < path.segments(); ++k) {
-      const SegmentProof proof = prover.prove(prover.prepared(path.segment(k)));
-      if (repeat > 0) continue;
+    const PathProof whole = prove_path(prover, path);
+    if (repeat > 0) continue;
+    for (const SegmentProof& proof : whole.segments) {
       boxes += proof.boxes_judged;
       kind.proved += proof.verdict == Verdict::kProved ? 1 : 0;
     }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/input_error.h"
+#include "certify/bodies/clear_poses.h"
 #include "certify/inverse_bound.h"
 #include "certify/motion/forms_in_lanes.h"
 #include "certify/motion/length_controlled_motion.h"
@@ -795,12 +796,10 @@ PairBound bound_along(const BodyGaps<I>& gaps, const CheckedPair<I>& pair, const
 
 constexpr double kJustPositive = std::numeric_limits<double>::min();
 
-/// @param enough  no larger bound is needed; it is positive
 template <class I>
-PairBound bound_of_mesh(const BodyGaps<I>& gaps, const CheckedPair<I>& pair, std::span<const Direction> directions,
-                        double enough) {
+PairBound bound_of_mesh(const BodyGaps<I>& gaps, const CheckedPair<I>& pair, std::span<const Direction> directions) {
   using Where = typename BodyGaps<I>::Where;
-  PairBound result{gaps.of_mesh(pair, directions, Where::kBox, enough)};
+  PairBound result{gaps.of_mesh(pair, directions, Where::kBox, kJustPositive)};
   if (result.lower > 0) return result;
   const auto is_apart = [&](Where where) { return gaps.of_mesh(pair, directions, where, kJustPositive) > 0; };
   if (is_apart(Where::kMid)) {
@@ -811,39 +810,44 @@ PairBound bound_of_mesh(const BodyGaps<I>& gaps, const CheckedPair<I>& pair, std
   return result;
 }
 
+/// Whether what is known of `clear` holds on the box.
+bool is_of(const ClearPoses* clear, const BodiesBox<Interval>& box) {
+  return clear != nullptr && box.tolerance == nullptr && clear->contains(box.p_WP, box.r_WP);
+}
+bool is_of(const ClearPoses* /*in binary64*/, const BodiesBox<MpInterval>& /*box*/) { return false; }
+
 /// Of a box on which all else is proved.
 template <class I>
 void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure, const PairDirections& directions,
-                  BoxVerdict& verdict) {
+                  const ClearPoses* clear, BoxVerdict& verdict) {
   if (directions.single.size() != problem.bodies->pairs.size()) throw std::logic_error("directions of other pairs");
   if (problem.tolerance && !enclosure.disturbance) throw std::logic_error("a proved box without its deviations");
   const BodiesBox<I> box = bodies_box(problem, enclosure);
   const BodyGaps<I> gaps(box);
   if (!gaps.have_cables_length()) verdict.kind = BoxVerdict::Kind::kNear;
-  using RoughBound = std::pair<double, std::size_t>;
-  std::vector<RoughBound> order;  // a heap, the least on top: the nearest pair may well come first
-  order.reserve(directions.single.size());
-  for (std::size_t n = 0; n < directions.single.size(); ++n) {
-    const double rough = gaps.rough(problem.bodies->pairs[n], directions.single[n]);
-    order.emplace_back(rough > 0 ? rough : 0.0, n);  // not a NaN
-  }
-  for (std::ranges::make_heap(order, std::greater<>()); !order.empty(); order.pop_back()) {
-    std::ranges::pop_heap(order, std::greater<>());
-    const auto [rough, n] = order.back();
+  const auto judge_pair = [&](std::size_t n) {
     const CheckedPair<I>& pair = problem.bodies->pairs[n];
-    // Of a pair that is farther apart than another one, nothing more is asked.
-    if (rough > 0 && rough >= verdict.clearance_m) break;
-    const PairBound bound =
-        gaps.has_mesh(pair) ? bound_of_mesh(gaps, pair, directions.of(n), std::max(verdict.clearance_m, kJustPositive))
-                            : bound_along(gaps, pair, directions.single[n]);
+    PairBound bound;
+    if (pair.has_mesh) {
+      bound = bound_of_mesh(gaps, pair, directions.of(n));
+    } else {
+      bound.lower = gaps.rough(pair, directions.single[n]);
+      if (!(bound.lower > 0)) bound = bound_along(gaps, pair, directions.single[n]);
+    }
     verdict.clearance_m = std::min(verdict.clearance_m, bound.lower);
-    if (bound.lower > 0) continue;
+    if (bound.lower > 0) return;
     verdict.kind = BoxVerdict::Kind::kNear;
     verdict.near.push_back({n, bound.at_mid});
+  };
+  if (is_of(clear, box)) {
+    for (const std::size_t n : clear->others()) judge_pair(n);
+    verdict.clearance_m = std::min(verdict.clearance_m, clear->least_gap());
+  } else {
+    for (std::size_t n = 0; n < directions.single.size(); ++n) judge_pair(n);
   }
   for (std::size_t n = 0; verdict.kind == BoxVerdict::Kind::kProved && n < directions.single.size(); ++n) {
     const CheckedPair<I>& pair = problem.bodies->pairs[n];
-    const MeshSide side = gaps.has_mesh(pair) ? gaps.side_at_mid(pair) : MeshSide::kOutside;
+    const MeshSide side = pair.has_mesh ? gaps.side_at_mid(pair) : MeshSide::kOutside;
     if (side == MeshSide::kOutside) continue;
     const bool is_inside = side == MeshSide::kInside;
     verdict.kind = is_inside ? BoxVerdict::Kind::kInside : BoxVerdict::Kind::kNear;
@@ -922,7 +926,7 @@ std::optional<BoxVerdict::Kind> kind_without_motion(typename MotionEnclosure<I>:
 
 template <class I>
 BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, double clearance,
-                 int continuation_steps, const PairDirections* directions) {
+                 int continuation_steps, const PairDirections* directions, const ClearPoses* clear) {
   using Kind = BoxVerdict::Kind;
   using Status = typename MotionEnclosure<I>::Status;
   constexpr int kSmall = 6;  // depth of boxes from which on smaller ones would hardly narrow what deviations may do
@@ -990,7 +994,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
   if (verdict.kind == Kind::kSplit && enclosure.is_slowed_badly) verdict.kind = Kind::kSlowing;
   verdict.clearance_m = std::numeric_limits<double>::infinity();
   if (verdict.kind == Kind::kProved && directions != nullptr && problem.bodies) {
-    judge_bodies(problem, enclosure, *directions, verdict);
+    judge_bodies(problem, enclosure, *directions, clear, verdict);
   }
   return verdict;
 }
@@ -998,9 +1002,10 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
 }  // namespace
 
 BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
-                     double clearance, int continuation_steps, const PairDirections* directions) {
+                     double clearance, int continuation_steps, const PairDirections* directions,
+                     const ClearPoses* clear) {
   BoxVerdict verdict;
-  if (!run_upward([&] { verdict = judge(problem, segment, box, clearance, continuation_steps, directions); }))
+  if (!run_upward([&] { verdict = judge(problem, segment, box, clearance, continuation_steps, directions, clear); }))
     verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
 }
@@ -1008,7 +1013,7 @@ BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment
 BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
                      double clearance, int continuation_steps, const PairDirections* directions) {
   Faults<MpInterval>::clear();
-  BoxVerdict verdict = judge(problem, segment, box, clearance, continuation_steps, directions);
+  BoxVerdict verdict = judge(problem, segment, box, clearance, continuation_steps, directions, nullptr);
   if (Faults<MpInterval>::raised()) verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
 }

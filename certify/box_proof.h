@@ -32,6 +32,8 @@
 
 namespace taut {
 
+class ClearPoses;
+
 namespace lanes {
 struct Machine;
 }
@@ -164,9 +166,10 @@ struct BoxVerdict {
 /// have to exceed c times half the range between the limits (in floating point; what is proved remains that they are
 /// positive).
 /// @param directions  one for each pair of bodies; null: nothing is asked of bodies
+/// @param clear  what is known of poses near by, along the same directions; null: nothing
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
                                    double clearance = 0, int continuation_steps = 1,
-                                   const PairDirections* directions = nullptr);
+                                   const PairDirections* directions = nullptr, const ClearPoses* clear = nullptr);
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
                                    double clearance = 0, int continuation_steps = 1,
                                    const PairDirections* directions = nullptr);

@@ -37,8 +37,9 @@ const ProofModel<MpInterval>& PrecisionLadder::multiprecision(std::size_t rung) 
 }
 
 BoxVerdict PrecisionLadder::judge(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance,
-                                  int continuation_steps, const PairDirections* directions) const {
-  if (rung == 0) return judge_box(fast_, segment, box, clearance, continuation_steps, directions);
+                                  int continuation_steps, const PairDirections* directions,
+                                  const ClearPoses* clear) const {
+  if (rung == 0) return judge_box(fast_, segment, box, clearance, continuation_steps, directions, clear);
   const PrecisionScope precision(bits(rung));
   return judge_box(multiprecision(rung), segment, box, clearance, continuation_steps, directions);
 }

@@ -34,7 +34,8 @@ class PrecisionLadder {
 
   /// judge_box() at a rung.
   [[nodiscard]] BoxVerdict judge(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance,
-                                 int continuation_steps, const PairDirections* directions = nullptr) const;
+                                 int continuation_steps, const PairDirections* directions = nullptr,
+                                 const ClearPoses* clear = nullptr) const;
   /// judge_contact() at a rung.
   [[nodiscard]] Contact judge_contact(std::size_t rung, const Segment& segment, const DyadicBox& box,
                                       const PairContact& found) const;

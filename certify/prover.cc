@@ -233,9 +233,16 @@ std::optional<SegmentProof> Prover::refute_by_slowing(const Segment& segment, do
   return std::nullopt;
 }
 
-SegmentProof Prover::prove(const Segment& segment, double clearance, const std::stop_token& stop, ProofAim aim) const {
+std::unique_ptr<const ClearPoses> Prover::clear_poses(std::span<const RigidPose> poses, const ClearPoses* wider,
+                                                      ClearPoses::Use use) const {
+  if (!bodies_ || problem_.tolerances) return nullptr;
+  return ClearPoses::around({*model().bodies, model().model, *bodies_, sampler().model()}, poses, wider, use);
+}
+
+SegmentProof Prover::prove(const Segment& segment, double clearance, const std::stop_token& stop, ProofAim aim,
+                           const ClearPoses* clear) const {
   if (!is_admissible(segment)) return to_proof(open_survey(segment.law, range_violation(segment)));
-  SegmentWalk walk(*this, segment, clearance, SegmentWalk::Extent::kToFirstFailure, stop, aim);
+  SegmentWalk walk(*this, segment, clearance, SegmentWalk::Extent::kToFirstFailure, stop, aim, clear);
   SegmentProof proof = to_proof(walk.run());
   if (proof.verdict != Verdict::kUndecided || aim == ProofAim::kProve) return proof;
   if (may_stop(segment)) return refute_by_slowing(segment, clearance, stop).value_or(std::move(proof));
@@ -248,9 +255,9 @@ SegmentProof Prover::prove(const Segment& segment, double clearance, const std::
   return proof;
 }
 
-SegmentSurvey Prover::survey(const Segment& segment, const std::stop_token& stop) const {
+SegmentSurvey Prover::survey(const Segment& segment, const std::stop_token& stop, const ClearPoses* clear) const {
   if (!is_admissible(segment)) return open_survey(segment.law, range_violation(segment));
-  return SegmentWalk(*this, segment, 0, SegmentWalk::Extent::kWhole, stop).run();
+  return SegmentWalk(*this, segment, 0, SegmentWalk::Extent::kWhole, stop, ProofAim::kDecide, clear).run();
 }
 
 MpInterval Prover::witnessed_quantity(const Segment& segment, const SegmentWitness& witness) const {

@@ -9,8 +9,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <stop_token>
 
+#include "certify/bodies/clear_poses.h"
 #include "certify/bodies/nearest.h"
 #include "certify/precision_ladder.h"
 #include "certify/segment_proof.h"
@@ -60,18 +62,25 @@ class Prover {
   /// strictly inside their limits; and all checked pairs of bodies are farther apart than their clearances. With a
   /// `clearance` from limits (judge_box) the proof also fails, as undecided, where the segment
   /// comes closer to a limit than that. A proof that `stop` cuts short is undecided, "interrupted".
+  /// @param clear  clear_poses() of a stretch of a path that the segment is part of; null: nothing is known
   /// Thread-safe; restores the caller's rounding mode.
   [[nodiscard]] SegmentProof prove(const Segment& segment, double clearance = 0, const std::stop_token& stop = {},
-                                   ProofAim aim = ProofAim::kDecide) const;
+                                   ProofAim aim = ProofAim::kDecide, const ClearPoses* clear = nullptr) const;
   [[nodiscard]] SegmentProof prove(const Waypoint& a, const Waypoint& b, double clearance = 0,
                                    const std::stop_token& stop = {}, ProofAim aim = ProofAim::kDecide) const {
     return prove(segment(a, b), clearance, stop, aim);
   }
 
+  /// Which bodies stay apart at all poses near these, for proofs of segments among them. Null where nothing is known,
+  /// or where deviations decide: there are tolerances.
+  [[nodiscard]] std::unique_ptr<const ClearPoses> clear_poses(std::span<const RigidPose> poses, const ClearPoses* wider,
+                                                              ClearPoses::Use use) const;
+
   /// The claim of prove() box by box, where it does not stop at what it can't prove: for paths of which all violations
   /// are asked for. A segment that is proved costs what prove() takes. Boxes that `stop` leaves are open,
   /// "interrupted".
-  [[nodiscard]] SegmentSurvey survey(const Segment& segment, const std::stop_token& stop = {}) const;
+  [[nodiscard]] SegmentSurvey survey(const Segment& segment, const std::stop_token& stop = {},
+                                     const ClearPoses* clear = nullptr) const;
 
   /// One box, at the cheapest rung that decides it. Bodies are not judged.
   [[nodiscard]] BoxVerdict judge(const Segment& segment, const DyadicBox& box) const;

@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "certify/bodies/clear_poses.h"
+
 namespace taut {
 namespace {
 
@@ -137,7 +139,7 @@ class SlopeSecants {
 }  // namespace
 
 SegmentWalk::SegmentWalk(const Prover& prover, const Segment& segment, double clearance, Extent extent,
-                         const std::stop_token& stop, ProofAim aim)
+                         const std::stop_token& stop, ProofAim aim, const ClearPoses* clear)
     : prover_(prover),
       ladder_(prover.ladder()),
       segment_(segment),
@@ -145,10 +147,15 @@ SegmentWalk::SegmentWalk(const Prover& prover, const Segment& segment, double cl
       extent_(extent),
       stop_(stop),
       aim_(aim),
-      deviations_(prover, segment) {
+      deviations_(prover, segment),
+      clear_(clear) {
   survey_.tension_N = survey_.length_m = survey_.wrench_scale = survey_.clearance_m =
       std::numeric_limits<double>::infinity();
   if (prover.bodies() == nullptr) return;
+  if (clear_ != nullptr) {
+    directions_ = clear_->directions();
+    return;
+  }
   const PoseSampler& sampler = prover.sampler();
   const std::array<RigidPose, 2> ends{sampler.rigid_pose(segment, 0), sampler.rigid_pose(segment, 1)};
   directions_ = std::make_shared<const PairDirections>(
@@ -167,8 +174,8 @@ SegmentSurvey SegmentWalk::run() {
 }
 
 bool SegmentWalk::prove_in_strides() {
-  if (directions_) return false;  // which change along the way
-  constexpr int kDeepest = 12;    // what takes smaller boxes is next to a limit, where the loop looks more closely
+  if (directions_ && clear_ == nullptr) return false;  // they change along the way
+  constexpr int kDeepest = 12;  // what takes smaller boxes is next to a limit, where the loop looks more closely
   const int most_boxes = std::min(1000, prover_.options().max_boxes / 2);  // little that a failure can waste
   SegmentSurvey proved = survey_;
   std::vector<DyadicBox> open = {DyadicBox{}};
@@ -186,13 +193,14 @@ bool SegmentWalk::prove_in_strides() {
     }
     if (box.depth > kDeepest || boxes_of_strides_ >= most_boxes || stop_.stop_requested()) return false;
     ++boxes_of_strides_;
-    const BoxVerdict verdict = ladder_.judge(0, segment_, box, clearance_, 1);
+    const BoxVerdict verdict = ladder_.judge(0, segment_, box, clearance_, 1, directions_.get(), clear_);
     likely_depth = std::min(likely_depth_after(box, verdict), kDeepest);
     if (verdict.kind == BoxVerdict::Kind::kProved) {
       proved.tension_N = std::min(proved.tension_N, verdict.tension_N);
       proved.length_m = std::min(proved.length_m, verdict.length_m);
       proved.wrench_scale = std::min(proved.wrench_scale, verdict.wrench_scale);
-      proved.boxes.push_back({box, SurveyedBox::Kind::kProved, {}, {}});
+      proved.clearance_m = std::min(proved.clearance_m, verdict.clearance_m);
+      proved.boxes.push_back({box, SurveyedBox::Kind::kProved, {}, {}, directions_});
     } else if (may_be_too_wide(verdict.kind)) {
       halve(box);
     } else {
@@ -228,7 +236,7 @@ SegmentWalk::Step SegmentWalk::examine(const Task& task) {
   ++survey_.boxes_judged;
   if (task.rung > 0) ++survey_.boxes_multiprecision;
   const BoxVerdict verdict =
-      ladder_.judge(task.rung, segment_, task.box, clearance_, task.continuation_steps, directions_.get());
+      ladder_.judge(task.rung, segment_, task.box, clearance_, task.continuation_steps, directions_.get(), clear_);
   switch (verdict.kind) {
     case Kind::kNear: return examine_bodies(task, verdict);
     case Kind::kInside: {
@@ -381,6 +389,7 @@ bool SegmentWalk::redirect(const DyadicBox& box, const BoxVerdict& verdict, std:
   }
   if (turned == *directions_) return false;
   directions_ = std::make_shared<const PairDirections>(std::move(turned));
+  clear_ = nullptr;
   return true;
 }
 

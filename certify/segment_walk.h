@@ -35,7 +35,7 @@ class SegmentWalk {
 
   /// @pre prover.is_admissible(segment)
   SegmentWalk(const Prover& prover, const Segment& segment, double clearance, Extent extent,
-              const std::stop_token& stop, ProofAim aim = ProofAim::kDecide);
+              const std::stop_token& stop, ProofAim aim = ProofAim::kDecide, const ClearPoses* clear = nullptr);
 
   /// The boxes of the segment, in order, as far as the extent goes.
   [[nodiscard]] SegmentSurvey run();
@@ -110,6 +110,7 @@ class SegmentWalk {
   ProofAim aim_;
   DeviationSearch deviations_;
   std::shared_ptr<const PairDirections> directions_;  ///< along which pairs were apart last; null: no bodies
+  const ClearPoses* clear_;                           ///< along these directions; null: not known
   SegmentSurvey survey_;
   int boxes_of_strides_ = 0;  ///< judged by strides that did not prove the segment
   std::vector<Task> open_ = {Task{}};

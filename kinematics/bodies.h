@@ -80,6 +80,8 @@ struct CheckedPair {
   bool shares_base = false;
   bool shares_platform = false;
   std::vector<ContactZone<S>> zones = {};
+  S radii{};              ///< the sum of both bodies' [m]; of an exit cone the cable's
+  bool has_mesh = false;  ///< one of the bodies, or both
 };
 
 /// What a pair has to be farther apart than [m].

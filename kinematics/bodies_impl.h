@@ -135,6 +135,32 @@ RequiredDistance<S> required_distance(const CheckedPair<S>& pair, const Vector3<
   return result;
 }
 
+namespace bodies_detail {
+
+/// What a pair knows of its bodies. @pre the model has all bodies
+template <class S>
+void set_bodies(const BodyModel<S>& model, CheckedPair<S>& pair) {
+  const auto add = [&](const S& radius, bool is_mesh) {
+    pair.radii = pair.radii + radius;
+    pair.has_mesh = pair.has_mesh || is_mesh;
+  };
+  const auto add_body = [&](const ConvexBody<S>& body) { add(body.radius, body.mesh != nullptr); };
+  pair.radii = S(0.0);
+  switch (pair.kind) {
+    case PairClass::kPlatformObstacles: add_body(model.platform[pair.first]); break;
+    default: add(model.cable_radius[pair.first], false);
+  }
+  switch (pair.kind) {
+    case PairClass::kCablesCables: add(model.cable_radius[pair.second], false); break;
+    case PairClass::kCablesPlatform: add_body(model.platform[pair.second]); break;
+    case PairClass::kExitCones: break;
+    default:
+      if (const auto* hull = std::get_if<ConvexBody<S>>(&model.obstacles[pair.second])) add_body(*hull);
+  }
+}
+
+}  // namespace bodies_detail
+
 template <class S>
 BodyModel<S> make_body_model(const Problem& problem) {
   using namespace bodies_detail;
@@ -177,6 +203,7 @@ BodyModel<S> make_body_model(const Problem& problem) {
       checked.zones.push_back({vector<S>(zone.at_m), ScalarTraits<S>::from_decimal(zone.within_m),
                                ScalarTraits<S>::from_decimal(zone.depth_m)});
     }
+    set_bodies(model, checked);
     model.pairs.push_back(std::move(checked));
   }
   return model;

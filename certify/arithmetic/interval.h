@@ -45,6 +45,7 @@ class Interval {
   Interval& operator/=(Interval b) { return *this = *this / b; }
 
   friend Interval operator*(double x, Interval a);
+  friend Interval times_nonnegative(Interval a, Interval b);
   friend Interval reciprocal(Interval a);
   friend Interval sqr(Interval a);
   friend Interval sqrt(Interval a);
@@ -86,6 +87,12 @@ inline Interval operator*(double x, Interval a) {
   return Interval(_mm_mul_pd(magnitude, ends));
 }
 inline Interval operator*(Interval a, double x) { return x * a; }
+
+/// a b, sooner. @pre b.lower() >= 0
+inline Interval times_nonnegative(Interval a, Interval b) {
+  const __m128d least = _mm_xor_pd(_mm_unpacklo_pd(b.v_, b.v_), _mm_set1_pd(-0.0));
+  return Interval(_mm_max_pd(_mm_mul_pd(a.v_, least), _mm_mul_pd(a.v_, b.high())));
+}
 
 inline Interval reciprocal(Interval a) {
   if (!(a.lower() > 0 || a.upper() < 0)) Faults<Interval>::raise();

@@ -24,30 +24,62 @@ BodyGaps<I, Slope>::BodyGaps(const BodiesBox<I, Slope>& box) : box_(box) {
     I change(0.0);
     if (box.tolerance != nullptr) change = I(ProofScalarTraits<I>::to_double(box.deviations->length[i]));
     if (!certainly_positive(box.length[i].range - change - free[0] - free[1])) have_length_ = false;
-    const Form longest = box.length[i] + change;
-    for (std::size_t end = 0; end < 2; ++end) {
-      cut_[i].share[end] = Form(0.0);
-      if (!box.bodies.is_cut[i][end]) continue;
-      if (!certainly_positive(longest.range)) {
-        have_length_ = false;
-        continue;
-      }
-      cut_[i].share[end] = reciprocal(longest) * free[end];
-      cut_[i].share[end].tighten(box.offset);
-    }
+    if ((box.bodies.is_cut[i][0] || box.bodies.is_cut[i][1]) && !certainly_positive(I(box.length[i].range + change)))
+      have_length_ = false;
   }
-  const auto range_in_world = [&](const Vector3<I>& x_P) {
-    Vector3<I> x;
-    for (int k = 0; k < 3; ++k) {
-      x(k) = box.p_WP(k).range + box.r_WP(k, 0).range * x_P(0) + box.r_WP(k, 1).range * x_P(1) +
-             box.r_WP(k, 2).range * x_P(2);
-    }
-    return x;
-  };
-  for (std::size_t i = 0; i < kCables; ++i) platform_anchors_[i] = range_in_world(box.model.p_PB[i]);
-  for (const ConvexBody<I>& body : box.bodies.platform) {
-    platform_bodies_.push_back(range_in_world(box_around(body)));
+  platform_bodies_.resize(box.bodies.platform.size());
+}
+
+template <class I, class Slope>
+const typename BodyGaps<I, Slope>::Cut& BodyGaps<I, Slope>::cut(std::size_t i) const {
+  if (cut_[i]) return *cut_[i];
+  I change(0.0);
+  if (box_.tolerance != nullptr) change = I(ProofScalarTraits<I>::to_double(box_.deviations->length[i]));
+  Cut& cut = cut_[i].emplace(Cut{{Form(0.0), Form(0.0)}});
+  const auto& is_cut = box_.bodies.is_cut[i];
+  const Form longest = box_.length[i] + change;
+  if ((!is_cut[0] && !is_cut[1]) || !certainly_positive(longest.range)) return cut;
+  const Form inverse = reciprocal(longest);
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (!is_cut[end]) continue;
+    cut.share[end] = inverse * box_.bodies.cable_free[i][end];
+    cut.share[end].tighten(box_.offset);
   }
+  return cut;
+}
+
+template <class I, class Slope>
+const std::array<I, 2>& BodyGaps<I, Slope>::shares(std::size_t i) const {
+  if (shares_[i]) return *shares_[i];
+  const auto& free = box_.bodies.cable_free[i];
+  if (box_.tolerance != nullptr) {
+    return shares_[i].emplace(std::array<I, 2>{cut(i).share[0].range, cut(i).share[1].range});
+  }
+  const I& length = box_.length[i].range;
+  const I inverse = certainly_positive(length) ? reciprocal(length) : I(0.0);
+  return shares_[i].emplace(std::array<I, 2>{times_of_sign(inverse, free[0]), times_of_sign(inverse, free[1])});
+}
+
+template <class I, class Slope>
+Vector3<I> BodyGaps<I, Slope>::range_in_world(const Vector3<I>& x_P) const {
+  Vector3<I> x;
+  for (int k = 0; k < 3; ++k) {
+    x(k) = box_.p_WP(k).range + times_of_sign(box_.r_WP(k, 0).range, x_P(0)) +
+           times_of_sign(box_.r_WP(k, 1).range, x_P(1)) + times_of_sign(box_.r_WP(k, 2).range, x_P(2));
+  }
+  return x;
+}
+
+template <class I, class Slope>
+const Vector3<I>& BodyGaps<I, Slope>::platform_anchor(std::size_t i) const {
+  if (!platform_anchors_[i]) platform_anchors_[i] = range_in_world(box_.model.p_PB[i]);
+  return *platform_anchors_[i];
+}
+
+template <class I, class Slope>
+const Vector3<I>& BodyGaps<I, Slope>::platform_body(std::size_t n) const {
+  if (!platform_bodies_[n]) platform_bodies_[n] = range_in_world(box_around(box_.bodies.platform[n]));
+  return *platform_bodies_[n];
 }
 
 template <class I, class Slope>
@@ -111,7 +143,7 @@ std::array<typename BodyGaps<I, Slope>::Projection, 2> BodyGaps<I, Slope>::cable
   std::array<Projection, 2> ends{Projection{base, shifts[0]}, Projection{platform, shifts[1]}};
   for (std::size_t end = 0; end < 2; ++end) {
     if (!box_.bodies.is_cut[i][end]) continue;
-    const Form& share = cut_[i].share[end];
+    const Form& share = cut(i).share[end];
     ends[end].at = end == 0 ? base + share * along : platform - share * along;
     // (1 − λ) of the one end's shift and λ of the other's.
     ends[end].shift = above(I(I(1.0) - share.range)) * shifts[end] + above(share.range) * shifts[1 - end];
@@ -187,15 +219,6 @@ SlopeForm<I, Slope> BodyGaps<I, Slope>::in_cone(const CheckedPair<I>& pair) cons
 }
 
 template <class I, class Slope>
-I BodyGaps<I, Slope>::radii(const CheckedPair<I>& pair) const {
-  const I first = pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].radius
-                                                             : box_.bodies.cable_radius[pair.first];
-  if (half_space(box_.bodies, pair) != nullptr) return first;
-  return first + (pair.kind == PairClass::kCablesCables ? box_.bodies.cable_radius[pair.second]
-                                                        : second_hull(box_.bodies, pair).radius);
-}
-
-template <class I, class Slope>
 double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& direction) const {
   if (pair.kind == PairClass::kExitCones) return -std::numeric_limits<double>::infinity();  // along() is quick
   if (half_space(box_.bodies, pair) != nullptr) return rough(pair, vector(pair, direction), false);
@@ -219,16 +242,19 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const std::array<Nu
   Upper lost(0.0);  // to deviations
   // From where to where a cable's checked part reaches along u.
   const auto cable_range = [&](std::size_t i) {
-    const auto shifts = end_shifts(pair, i, in_platform);
-    lost += shifts[0] + shifts[1];
+    if (box_.tolerance != nullptr) {
+      const auto shifts = end_shifts(pair, i, in_platform);
+      lost += shifts[0] + shifts[1];
+    }
     const Vector3<I>& a = box_.model.p_WA[i];
     // Both ends of the part from the anchor that stands still in these axes, so that the other one counts once.
     const std::size_t still = in_platform ? 1 : 0;
     const I from = in_platform ? dot(u, box_.model.p_PB[i]) : dot(u, a);
-    const I along = (in_platform ? in_axes_of_platform(a) : dot(u, platform_anchors_[i])) - from;
-    const auto share = [&](std::size_t end) { return cut_[i].share[end].range; };
-    const I near = box_.bodies.is_cut[i][still] ? from + share(still) * along : from;
-    const I far = from + (box_.bodies.is_cut[i][1 - still] ? I(I(1.0) - share(1 - still)) * along : along);
+    const I along = (in_platform ? in_axes_of_platform(a) : dot(u, platform_anchor(i))) - from;
+    const auto share = [&](std::size_t end) { return shares(i)[end]; };
+    const I near = box_.bodies.is_cut[i][still] ? from + times_of_sign(along, share(still)) : from;
+    const I far =
+        from + (box_.bodies.is_cut[i][1 - still] ? times_of_sign(along, I(I(1.0) - share(1 - still))) : along);
     return hull(near, far);
   };
   I first, second;
@@ -237,7 +263,7 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const std::array<Nu
     if (box_.tolerance != nullptr && !in_platform) {
       lost += position_ + turn_ * (norm_above(body.centre) + above(body.reach));
     }
-    first = in_platform ? dot(u, box_around(body)) : dot(u, platform_bodies_[pair.first]);
+    first = in_platform ? dot(u, box_around(body)) : dot(u, platform_body(pair.first));
   } else {
     first = cable_range(pair.first);
   }
@@ -251,7 +277,8 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const std::array<Nu
     if (is_moving && box_.tolerance != nullptr) lost += obstacle_shift(body.centre) + turn_ * above(body.reach);
     second = is_moving ? in_axes_of_platform(box_around(body)) : dot(u, box_around(body));
   }
-  const I gap = (first - second) / norm_of<I>(u) - radii(pair) - required(pair, false).at_most;
+  const I gap =
+      times_of_sign(I(first - second), reciprocal(norm_of<I>(u))) - pair.radii - required(pair, false).at_most;
   return lower_bound(I(gap + ProofScalarTraits<I>::symmetric(lost)));
 }
 
@@ -271,7 +298,7 @@ GapBound<I, Slope> BodyGaps<I, Slope>::along(const CheckedPair<I>& pair, const D
 
   // The second body: constants, or two ends of a cable that move with the platform, too.
   Projections second;
-  const I needed = radii(pair) + required(pair, false).at_most;
+  const I needed = pair.radii + required(pair, false).at_most;
   if (half != nullptr) {
     second.push_back({Form(half->offset), Upper(0.0)});
   } else if (pair.kind == PairClass::kCablesCables) {
@@ -371,7 +398,7 @@ I BodyGaps<I, Slope>::distance(const CheckedPair<I>& pair, const PointPair& shar
     return only_at_mid ? value.at_mid : value.range;
   }
   const Vector3<Form> a = mean(points(pair, true, shares.elements[0]), shares.first);
-  const I near = radii(pair) + required(pair, only_at_mid).at_least;
+  const I near = pair.radii + required(pair, only_at_mid).at_least;
   if (const auto* half = half_space(box_.bodies, pair)) {
     const Vector3<I>& n = half->normal;
     Form height = a(0) * n(0) + a(1) * n(1) + a(2) * n(2) - half->offset;
@@ -399,7 +426,7 @@ bool BodyGaps<I, Slope>::meet(const CheckedPair<I>& pair, const std::array<Point
       v[n](k).tighten(box_.offset);
     }
   }
-  const I deep = -(radii(pair) + required(pair, false).at_least);
+  const I deep = -(pair.radii + required(pair, false).at_least);
   const bool may_overlap = !(upper_bound(deep) <= 0);
   int positive = 0, negative = 0;
   for (std::size_t n = 0; n < 4; ++n) {

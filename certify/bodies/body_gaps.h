@@ -134,8 +134,6 @@ class BodyGaps {
   /// Of a pair whose surfaces do not touch: kOutside if at m, of the undisturbed machine, no part of either body is
   /// inside of the other, where that is a watertight mesh; kInside if a part certainly is.
   [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair) const;
-  /// Whether one of its bodies is a mesh.
-  [[nodiscard]] bool has_mesh(const CheckedPair<I>& pair) const;
   /// The same from ranges alone, of boxes around bodies and of the ends of cables' checked parts: a lower bound, for
   /// pairs that are far apart.
   [[nodiscard]] double rough(const CheckedPair<I>& pair, const Direction& direction) const;
@@ -187,14 +185,17 @@ class BodyGaps {
   /// The sum of shares times points.
   [[nodiscard]] static Vector3<Form> mean(const std::vector<Vector3<Form>>& points,
                                           const std::vector<std::int64_t>& shares);
+  [[nodiscard]] const Cut& cut(std::size_t cable) const;
+  [[nodiscard]] const std::array<I, 2>& shares(std::size_t cable) const;  ///< ranges of the same
+  [[nodiscard]] Vector3<I> range_in_world(const Vector3<I>& x_P) const;
+  [[nodiscard]] const Vector3<I>& platform_anchor(std::size_t cable) const;  ///< in W, anywhere in T
+  [[nodiscard]] const Vector3<I>& platform_body(std::size_t body) const;     ///< a box around its points, likewise
   /// Of an exit cone: how far the cable's other end is inside of it.
   [[nodiscard]] Form in_cone(const CheckedPair<I>& pair) const;
   /// Of the pair on T, or at m.
   [[nodiscard]] RequiredDistance<I> required(const CheckedPair<I>& pair, bool only_at_mid) const;
   template <class Number>
   [[nodiscard]] double rough(const CheckedPair<I>& pair, const std::array<Number, 3>& u, bool in_platform) const;
-  /// The sum of both bodies' radii.
-  [[nodiscard]] I radii(const CheckedPair<I>& pair) const;
   [[nodiscard]] const PlacedMesh<I>* mesh(const CheckedPair<I>& pair, bool is_first) const;
   class MeshGaps;
   [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair, bool first_is_solid) const;
@@ -204,10 +205,12 @@ class BodyGaps {
   const BodiesBox<I, Slope>& box_;
   Upper position_{}, turn_{};                       ///< of the platform, by deviations
   std::array<Upper, kCables> base_{}, platform_{};  ///< tolerances of anchors
-  std::array<Cut, kCables> cut_;
-  std::array<Vector3<I>, kCables> platform_anchors_;               ///< in W, anywhere in T
-  boost::container::small_vector<Vector3<I>, 4> platform_bodies_;  ///< boxes around their points, in W, likewise
   bool have_length_ = true;
+  // Computed when they are first asked for.
+  mutable std::array<std::optional<Cut>, kCables> cut_;
+  mutable std::array<std::optional<std::array<I, 2>>, kCables> shares_;
+  mutable std::array<std::optional<Vector3<I>>, kCables> platform_anchors_;
+  mutable boost::container::small_vector<std::optional<Vector3<I>>, 4> platform_bodies_;
 };
 
 extern template class BodyGaps<Interval>;

@@ -46,6 +46,17 @@ I times(const I& x, const I& y) {
   return x * y;
 }
 
+/// A product with something that has one sign as a rule.
+inline Interval times_of_sign(const Interval& x, const Interval& y) {
+  if (y.lower() >= 0) return times_nonnegative(x, y);
+  if (y.upper() <= 0) return -times_nonnegative(x, -y);
+  return x * y;
+}
+template <class I>
+I times_of_sign(const I& x, const I& y) {
+  return x * y;
+}
+
 template <class I>
 I dot(const std::array<double, 3>& x, const Vector3<I>& y) {
   return times(x[0], y(0)) + times(x[1], y(1)) + times(x[2], y(2));

@@ -167,11 +167,6 @@ const PlacedMesh<I>* BodyGaps<I, Slope>::mesh(const CheckedPair<I>& pair, bool i
 }
 
 template <class I, class Slope>
-bool BodyGaps<I, Slope>::has_mesh(const CheckedPair<I>& pair) const {
-  return mesh(pair, true) != nullptr || mesh(pair, false) != nullptr;
-}
-
-template <class I, class Slope>
 double BodyGaps<I, Slope>::of_mesh(const CheckedPair<I>& pair, std::span<const Direction> directions, Where where,
                                    double enough) const {
   return MeshGaps(*this, pair, directions, where).least(enough);
@@ -257,10 +252,6 @@ template const PlacedMesh<Interval>* BodyGaps<Interval, Gradient<Interval, 3>>::
                                                                                      bool) const;
 template MeshSide BodyGaps<Interval>::side_at_mid(const CheckedPair<Interval>&) const;
 template MeshSide BodyGaps<MpInterval>::side_at_mid(const CheckedPair<MpInterval>&) const;
-template bool BodyGaps<Interval>::has_mesh(const CheckedPair<Interval>&) const;
-template bool BodyGaps<MpInterval>::has_mesh(const CheckedPair<MpInterval>&) const;
-template bool BodyGaps<Interval, Gradient<Interval, 2>>::has_mesh(const CheckedPair<Interval>&) const;
-template bool BodyGaps<Interval, Gradient<Interval, 3>>::has_mesh(const CheckedPair<Interval>&) const;
 template double BodyGaps<Interval>::of_mesh(const CheckedPair<Interval>&, std::span<const Direction>, Where,
                                             double) const;
 template double BodyGaps<MpInterval>::of_mesh(const CheckedPair<MpInterval>&, std::span<const Direction>, Where,

@@ -266,21 +266,6 @@ Points carried(const ConvexBody<double>& body, const RigidPose& pose) {
   return points;
 }
 
-/// The sum of both bodies' radii.
-double radii(const BodyModel<double>& bodies, const CheckedPair<double>& pair) {
-  const double first =
-      pair.kind == PairClass::kPlatformObstacles ? bodies.platform[pair.first].radius : bodies.cable_radius[pair.first];
-  switch (pair.kind) {
-    case PairClass::kCablesCables: return first + bodies.cable_radius[pair.second];
-    case PairClass::kCablesPlatform: return first + bodies.platform[pair.second].radius;
-    case PairClass::kExitCones: return first;
-    case PairClass::kPlatformObstacles:
-    case PairClass::kCablesObstacles: break;
-  }
-  const auto* second = std::get_if<ConvexBody<double>>(&bodies.obstacles[pair.second]);
-  return second != nullptr ? first + second->radius : first;
-}
-
 /// As multiples of 1/kWhole that sum to kWhole.
 std::vector<std::int64_t> rounded_shares(std::span<const double> shares) {
   std::vector<std::int64_t> result;
@@ -365,14 +350,7 @@ bool BodySampler::has_own_direction(std::size_t n) const {
   return half_space(pair) != nullptr || pair.kind == PairClass::kExitCones;
 }
 
-bool BodySampler::needs_list(std::size_t n) const {
-  const CheckedPair<double>& pair = bodies_.pairs.at(n);
-  if (pair.kind == PairClass::kCablesCables || has_own_direction(n)) return false;
-  const auto is_mesh = [](const ConvexBody<double>& body) { return body.mesh != nullptr; };
-  if (pair.kind == PairClass::kCablesPlatform) return is_mesh(bodies_.platform[pair.second]);
-  return is_mesh(std::get<ConvexBody<double>>(bodies_.obstacles[pair.second])) ||
-         (pair.kind == PairClass::kPlatformObstacles && is_mesh(bodies_.platform[pair.first]));
-}
+bool BodySampler::needs_list(std::size_t n) const { return bodies_.pairs.at(n).has_mesh && !has_own_direction(n); }
 
 namespace {
 
@@ -425,7 +403,7 @@ BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose
     return found;
   }
   const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
-  found.needed = required_distance(pair, pose.p).at_most + radii(bodies_, pair);
+  found.needed = required_distance(pair, pose.p).at_most + pair.radii;
   if (const auto* half = half_space(pair)) {
     const Point normal = half->normal.normalized();
     Points points = bodies[0].points;
@@ -508,7 +486,7 @@ std::vector<Direction> BodySampler::directions(const Model<double>& model, const
     return result;
   }
   const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
-  const double needed = pair.clearance + radii(bodies_, pair);
+  const double needed = pair.clearance + pair.radii;
   const bool in_platform = is_best_in_platform(pair);
   for (Point along : covering_directions(bodies[0], bodies[1], needed, share)) {
     if (in_platform) along = pose.q.toRotationMatrix().transpose() * along;
@@ -591,7 +569,7 @@ BodySampler::RoughGap BodySampler::gap_of_aligned_boxes(const Sketch& at, std::s
   // Nothing is rounded along an axis of W.
   const bool is_exact = (apart.array() != 0).count() == 1 && !is_best_in_platform(pair);
   const double size = (first.highest - first.lowest + second.highest - second.lowest).lpNorm<1>();
-  return {apart, apart.norm() - radii(bodies_, pair) - pair.clearance, is_exact ? 0 : size / (2 * Direction::kCoarse)};
+  return {apart, apart.norm() - pair.radii - pair.clearance, is_exact ? 0 : size / (2 * Direction::kCoarse)};
 }
 
 BodySampler::RoughGap BodySampler::gap_of_balls(const Sketch& at, std::size_t n) const {
@@ -654,7 +632,7 @@ double BodySampler::clear_along(const Sketch& at, std::size_t n, const Direction
     case PairClass::kCablesPlatform: beyond = least(bodies_.platform[pair.second].points, -u_P) - u.dot(at.p_WP); break;
     default: beyond = least(std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]).points, -u);
   }
-  return first + beyond - radii(bodies_, pair) - pair.clearance;
+  return first + beyond - pair.radii - pair.clearance;
 }
 
 PairDirections BodySampler::first_directions(const Model<double>& model, const RigidPose& middle,
@@ -678,12 +656,7 @@ PairDirections BodySampler::first_directions(const Model<double>& model, const R
   };
   const auto sharpen = [&](std::size_t n) {
     is_sharp[n] = true;
-    if (bodies_.pairs[n].kind == PairClass::kCablesCables) {
-      const Point apart = rough_gap(at_middle, n).apart;  // of two segments that is where they are nearest
-      if (apart.squaredNorm() > 0) choose(n, rough_direction(at_middle, n, apart, Direction::kFine));
-      return;
-    }
-    if (const auto sharp = direction(model, middle, n, Direction::kFine, ends)) choose(n, *sharp);
+    if (const auto sharp = sharp_direction(model, at_middle, middle, ends, n)) choose(n, *sharp);
   };
   for (std::size_t n = 0; n < bodies_.pairs.size(); ++n) {
     Direction& chosen = result.single.emplace_back();
@@ -705,6 +678,38 @@ PairDirections BodySampler::first_directions(const Model<double>& model, const R
     sharpen(n);
   }
   return result;
+}
+
+void BodySampler::set_rough_directions(const Model<double>& model, const RigidPose& pose,
+                                       std::span<const std::size_t> pairs, PairDirections& directions) const {
+  const Sketch at = sketch(model, pose);
+  directions.single.resize(bodies_.pairs.size());
+  for (const std::size_t n : pairs) {
+    if (!has_own_direction(n)) directions.single[n] = rough_direction(at, n, rough_gap(at, n).apart);
+    if (needs_list(n)) directions.lists[n] = {directions.single[n]};
+  }
+}
+
+double BodySampler::set_sharp_directions(const Model<double>& model, const RigidPose& pose,
+                                         const std::array<RigidPose, 2>& ends, std::span<const std::size_t> pairs,
+                                         PairDirections& directions) const {
+  const Sketch at = sketch(model, pose);
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t n : pairs) {
+    if (has_own_direction(n) || needs_list(n)) continue;
+    if (const auto sharp = sharp_direction(model, at, pose, ends, n)) directions.single[n] = *sharp;
+    least = std::min(least, clear_along(at, n, directions.single[n]));
+  }
+  return least;
+}
+
+std::optional<Direction> BodySampler::sharp_direction(const Model<double>& model, const Sketch& at,
+                                                      const RigidPose& pose, const std::array<RigidPose, 2>& ends,
+                                                      std::size_t n) const {
+  if (bodies_.pairs[n].kind != PairClass::kCablesCables) return direction(model, pose, n, Direction::kFine, ends);
+  const Point apart = rough_gap(at, n).apart;  // of two segments that is where they are nearest
+  if (!(apart.squaredNorm() > 0)) return std::nullopt;
+  return rough_direction(at, n, apart, Direction::kFine);
 }
 
 PointPair BodySampler::nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const {
@@ -821,7 +826,7 @@ double gap_of_boxes(const BodyModel<double>& bodies, const Model<double>& model,
       is_of_platform ? carried(bodies.platform[pair.first], pose) : cable_ends(bodies, model, pose, pair.first);
   const Points of_second =
       is_against_platform ? carried(second, pose) : Points(second.points.begin(), second.points.end());
-  return nearest_points(of_first, of_second).distance - radii(bodies, pair) - pair.clearance;
+  return nearest_points(of_first, of_second).distance - pair.radii - pair.clearance;
 }
 
 }  // namespace
@@ -873,7 +878,7 @@ double BodySampler::rough_gap_of_mesh(const Model<double>& model, const RigidPos
                                       double enough) const {
   const CheckedPair<double>& pair = bodies_.pairs[n];
   const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
-  const double needed = radii(bodies_, pair) + pair.clearance;
+  const double needed = pair.radii + pair.clearance;
   const double gap = distance_bound(bodies[0], bodies[1], needed + enough) - needed;
   return gap > 0 && point_inside(bodies[0], bodies[1]) ? -gap : gap;
 }

@@ -72,6 +72,13 @@ class BodySampler {
   /// of the nearest pairs, those along which they are farthest apart in the middle.
   [[nodiscard]] PairDirections first_directions(const Model<double>& model, const RigidPose& middle,
                                                 const std::array<RigidPose, 2>& ends) const;
+  /// Of some pairs their rough_direction(); those of the others stay.
+  void set_rough_directions(const Model<double>& model, const RigidPose& pose, std::span<const std::size_t> pairs,
+                            PairDirections& directions) const;
+  /// Of some pairs those along which they are farthest apart at a pose, between these ends. @returns how much farther
+  /// than their clearances all of them are apart along these there [m]
+  double set_sharp_directions(const Model<double>& model, const RigidPose& pose, const std::array<RigidPose, 2>& ends,
+                              std::span<const std::size_t> pairs, PairDirections& directions) const;
   /// Its nearest points there.
   [[nodiscard]] PointPair nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
 
@@ -123,6 +130,9 @@ class BodySampler {
   /// @param apart  RoughGap::apart
   [[nodiscard]] Direction rough_direction(const Sketch& at, std::size_t pair, const Vector3<double>& apart,
                                           int largest = Direction::kCoarse) const;
+  [[nodiscard]] std::optional<Direction> sharp_direction(const Model<double>& model, const Sketch& at,
+                                                         const RigidPose& pose, const std::array<RigidPose, 2>& ends,
+                                                         std::size_t pair) const;
   [[nodiscard]] double clear_along(const Sketch& at, std::size_t pair, const Direction& direction) const;
   struct Found;
   [[nodiscard]] Found find(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;

@@ -78,7 +78,9 @@ class BodyJudge {
     options.max_multiprecision_boxes = std::min(options_.multiprecision, kMostMultiprecisionBoxes);
     const Prover prover(trial_.problem, options);
     const Segment segment = trial_.law == Law::kCableLengths ? trial_.curve() : prover.prepared(trial_.curve());
-    const SegmentProof proof = prover.prove(segment);
+    const std::unique_ptr<const ClearPoses> clear = some_clear_poses(prover, segment);
+    const SegmentProof proof = prover.prove(segment, 0, {}, ProofAim::kDecide, clear.get());
+    if (clear) ++bodies.with_clear_poses;
     counts.boxes += proof.boxes_judged;
     counts.multiprecision += proof.boxes_multiprecision;
     const bool is_closely_looked_at = seed_ % options_.surveys == 0;
@@ -131,6 +133,20 @@ class BodyJudge {
         : violated_ ? "too near"
                     : "clear",
         delta_, trial_.size, best_s_);
+  }
+  /// What a path's proof may know around a segment: nothing, or what holds at poses along it.
+  [[nodiscard]] std::unique_ptr<const ClearPoses> some_clear_poses(const Prover& prover, const Segment& segment) {
+    const auto around = [&](int steps, const ClearPoses* wider, ClearPoses::Use use) {
+      std::vector<taut::RigidPose> poses;
+      for (int k = 0; k <= steps; ++k) {
+        poses.push_back(prover.sampler().rigid_pose(segment, static_cast<double>(k) / steps));
+      }
+      return prover.clear_poses(poses, wider, use);
+    };
+    if (one_in(random_, 3)) return nullptr;
+    if (one_in(random_, 2)) return around(1, nullptr, ClearPoses::Use::kProofs);
+    const std::unique_ptr<const ClearPoses> wider = around(2, nullptr, ClearPoses::Use::kSmaller);
+    return wider ? around(4, wider.get(), ClearPoses::Use::kProofs) : nullptr;
   }
   [[nodiscard]] bool has_tolerances() const { return trial_.tolerances != ToleranceKind::kNone; }
   [[nodiscard]] Deviation some_deviation() {

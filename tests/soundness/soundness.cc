@@ -94,15 +94,16 @@ void for_each_count(Tally& tally, const Visit& visit) {
   for (auto& of_angles : tally.angles) {
     for (Count& count : of_angles) visit(count);
   }
-  for (Count* count : {&tally.wrong, &tally.looked_at, &tally.violated_elsewhere, &tally.crossing,
-                       &tally.crossing_refuted, &tally.surveyed, &tally.margins, &tally.margins_exact,
-                       &tally.margins_compared, &tally.kernel_asked, &tally.kernel_proofs, &tally.kernel_confirmed,
-                       &tally.bodies.walls, &tally.bodies.walls_refuted, &tally.bodies.pairs, &tally.bodies.zones}) {
+  for (Count* count :
+       {&tally.wrong, &tally.looked_at, &tally.violated_elsewhere, &tally.crossing, &tally.crossing_refuted,
+        &tally.surveyed, &tally.margins, &tally.margins_exact, &tally.margins_compared, &tally.kernel_asked,
+        &tally.kernel_proofs, &tally.kernel_confirmed, &tally.bodies.with_clear_poses, &tally.bodies.walls,
+        &tally.bodies.walls_refuted, &tally.bodies.pairs, &tally.bodies.zones}) {
     visit(*count);
   }
 }
 static_assert(sizeof(Tally) == sizeof(Count) * (9 * 4 * kDecades + 14 * kLaws * kToleranceKinds + 3 * 4 +
-                                                3 * (kPairClasses + 1) + 16),
+                                                3 * (kPairClasses + 1) + 17),
               "for_each_count() visits all that a Tally has");
 
 std::string text_of(Tally& tally) {
@@ -753,6 +754,7 @@ double print_bodies(const BodyTally& tally) {
                undecided.load());
   }
   fmt::print("{} paths through thin walls, {} of them refuted\n", tally.walls.load(), tally.walls_refuted.load());
+  fmt::print("{} proofs with what is known of poses around\n", tally.with_clear_poses.load());
   fmt::print("{} with a pair that may touch somewhere\n{} distances in 200 bits\n", tally.zones.load(),
              tally.pairs.load());
   const double share =

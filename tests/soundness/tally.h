@@ -32,6 +32,7 @@ struct BodyTally {
   std::array<std::array<Counts, kToleranceKinds>, kLaws> counts;
   std::array<std::array<Count, 3>, kPairClasses + 1> classes;  ///< of the pair that decides: proved, refuted, undecided
   Count zones{0};                                              ///< trials with a pair that may touch somewhere
+  Count with_clear_poses{0};                                   ///< proofs that were told what is known of poses around
   Count walls{0}, walls_refuted{0};  ///< thinner than a sample: points of both bodies that meet are known
   Count pairs{0};                    ///< distances that were computed after proofs, in 200 bits
 };
