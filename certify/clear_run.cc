@@ -7,30 +7,45 @@
 namespace taut {
 
 std::size_t ClearRun::length(const Prover& prover) {
-  constexpr std::size_t kLength = 16;
   if (prover.bodies() == nullptr || prover.problem().tolerances) return 1;
   const auto& pairs = prover.bodies()->bodies().pairs;
-  return std::ranges::any_of(pairs, &CheckedPair<double>::has_mesh) ? 1 : kLength;
+  return std::ranges::any_of(pairs, &CheckedPair<double>::has_mesh) ? 1 : kParts * kPart;
+}
+
+template <class F>
+const ClearPoses* ClearRun::get(Made& made, F&& make) {
+  if (!made.is_made.load(std::memory_order_acquire)) {
+    const std::lock_guard lock(mutex_);
+    if (!made.is_made.load(std::memory_order_relaxed)) {
+      made.poses = make();
+      made.is_made.store(true, std::memory_order_release);
+    }
+  }
+  return made.poses.get();
 }
 
 const ClearPoses* ClearRun::at(std::size_t k) {
-  constexpr std::size_t kPart = 4;  // segments
-  if (!is_asked_) {
-    is_asked_ = true;
-    if (prover_.bodies() == nullptr || count_ < 2) return nullptr;
-    poses_.push_back(prover_.sampler().rigid_pose(segment_(0), 0));
-    for (std::size_t j = 0; j < count_; ++j) poses_.push_back(prover_.sampler().rigid_pose(segment_(j), 1));
-    whole_ = prover_.clear_poses(poses_, nullptr, ClearPoses::Use::kSmaller);
+  if (count_ < 2) return nullptr;
+  const ClearPoses* whole = get(whole_, [this] { return make_whole(); });
+  if (whole == nullptr || whole->others().empty()) return whole;
+  return get(parts_.at(k / kPart), [this, k] { return make_part(k / kPart); });
+}
+
+std::unique_ptr<const ClearPoses> ClearRun::make_whole() {
+  ends_.reserve(count_ + 1);
+  for (std::size_t k = 0; k < count_; ++k) {
+    const Segment segment = segment_(k);
+    if (!prover_.is_admissible(segment)) return nullptr;
+    if (k == 0) ends_.push_back(prover_.sampler().rigid_pose(segment, 0));
+    ends_.push_back(prover_.sampler().rigid_pose(segment, 1));
   }
-  if (!whole_) return nullptr;
-  if (whole_->others().empty()) return whole_.get();
-  if (const std::size_t part = k / kPart; part != part_) {
-    part_ = part;
-    const std::size_t first = kPart * part, last = std::min(first + kPart, count_);
-    of_part_ =
-        prover_.clear_poses(std::span(poses_).subspan(first, last - first + 1), whole_.get(), ClearPoses::Use::kProofs);
-  }
-  return of_part_.get();
+  return prover_.clear_poses(ends_, nullptr, ClearPoses::Use::kSmaller);
+}
+
+std::unique_ptr<const ClearPoses> ClearRun::make_part(std::size_t part) const {
+  const std::size_t first = kPart * part, last = std::min(first + kPart, count_);
+  return prover_.clear_poses(std::span(ends_).subspan(first, last - first + 1), whole_.poses.get(),
+                             ClearPoses::Use::kProofs);
 }
 
 }  // namespace taut

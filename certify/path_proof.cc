@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <stdexcept>
 
@@ -148,27 +149,24 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
   }
   result.segments.resize(path.segments());
   const std::size_t length = path.timing ? 1 : ClearRun::length(prover);
-  const auto prove = [&](std::size_t run) {
-    const std::size_t begin = length * run, end = std::min(begin + length, path.segments());
-    ClearRun clear(
-        prover, [&](std::size_t k) { return path.segment(begin + k); }, end - begin);
-    for (std::size_t k = begin; k < end; ++k) {
-      const Segment segment = path.segment(k);
-      // Known proofs are of the path alone.
-      if (const SegmentProof* earlier = known && !path.timing ? known(segment) : nullptr) {
-        result.segments[k] = *earlier;
-        continue;
-      }
-      result.segments[k] = prover.prove(segment, 0, stop, aim, clear.at(k - begin));
-    }
+  std::deque<ClearRun> runs;
+  for (std::size_t begin = 0; length > 1 && begin < path.segments(); begin += length) {
+    const auto segment = [&path, begin](std::size_t k) { return path.segment(begin + k); };
+    runs.emplace_back(prover, segment, std::min(length, path.segments() - begin));
+  }
+  const auto prove = [&](std::size_t k) {
+    const Segment segment = path.segment(k);
+    // Known proofs are of the path alone.
+    const SegmentProof* earlier = known && !path.timing ? known(segment) : nullptr;
+    const auto clear = [&] { return runs.empty() ? nullptr : runs[k / length].at(k % length); };
+    result.segments[k] = earlier != nullptr ? *earlier : prover.prove(segment, 0, stop, aim, clear());
   };
   // Making threads takes longer than most short paths.
   constexpr std::chrono::milliseconds kAlone{1};
   const auto start = std::chrono::steady_clock::now();
-  const std::size_t runs = (path.segments() + length - 1) / length;
   std::size_t next = 0;
-  while (next < runs && std::chrono::steady_clock::now() - start < kAlone) prove(next++);
-  tbb::parallel_for(next, runs, prove);
+  while (next < result.segments.size() && std::chrono::steady_clock::now() - start < kAlone) prove(next++);
+  tbb::parallel_for(next, result.segments.size(), prove);
   result.verdict = Verdict::kProved;
   for (std::size_t k = 0; k < result.segments.size(); ++k) {
     const SegmentProof& segment = result.segments[k];

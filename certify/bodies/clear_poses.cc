@@ -90,6 +90,7 @@ struct ClearPoses::Gaps {
 
 bool ClearPoses::sort_out(const Machine& machine, Gaps& over, std::span<const std::size_t> pairs,
                           const PairDirections& directions) {
+  others_.reserve(others_.size() + pairs.size());
   const bool is_valid = run_upward([&] {
     if (!over.gaps) over.open(machine, box_);
     for (const std::size_t n : pairs) {
@@ -123,14 +124,17 @@ std::unique_ptr<const ClearPoses> ClearPoses::around(const Machine& machine, std
   const std::size_t count = machine.bodies.pairs.size();
   ClearPoses result(box_around(poses));
   PairDirections directions;
-  std::vector<std::size_t> asked;
+  std::vector<std::size_t> all;
+  std::span<const std::size_t> asked;
+  result.apart_.reserve(count);
   if (wider == nullptr) {
-    asked.resize(count);
-    std::iota(asked.begin(), asked.end(), std::size_t{0});
+    all.resize(count);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    asked = all;
   } else {
     directions = *wider->directions_;
     asked = wider->others_;
-    result.apart_ = wider->apart_;
+    result.apart_.assign(wider->apart_.begin(), wider->apart_.end());
   }
   const RigidPose& middle = poses[poses.size() / 2];
   machine.sampler.set_rough_directions(machine.in_doubles, middle, asked, directions);
