@@ -827,12 +827,10 @@ void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure
   if (!gaps.have_cables_length()) verdict.kind = BoxVerdict::Kind::kNear;
   const auto judge_pair = [&](std::size_t n) {
     const CheckedPair<I>& pair = problem.bodies->pairs[n];
-    PairBound bound;
-    if (pair.has_mesh) {
-      bound = bound_of_mesh(gaps, pair, directions.of(n));
-    } else {
-      bound.lower = gaps.rough(pair, directions.single[n]);
-      if (!(bound.lower > 0)) bound = bound_along(gaps, pair, directions.single[n]);
+    PairBound bound{gaps.rough(pair, directions.single[n])};
+    if (!(bound.lower > 0)) {
+      bound =
+          pair.has_mesh ? bound_of_mesh(gaps, pair, directions.of(n)) : bound_along(gaps, pair, directions.single[n]);
     }
     verdict.clearance_m = std::min(verdict.clearance_m, bound.lower);
     if (bound.lower > 0) return;
