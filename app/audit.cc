@@ -230,10 +230,9 @@ Audit run_pipeline(const Prover& prover, PathSource& source, CertificateWriter& 
   constexpr std::size_t kBatchesPerThread = 8;  // few segments are spread evenly
   const std::size_t batch_segments =
       std::clamp<std::size_t>(source.segments() / (kBatchesPerThread * threads), 1, kMostSegments);
+  BatchReader reader(source, batch_segments);
   const Elaborator elaborator(source.problem(), source.law());
   const BatchProver batch_prover(prover, elaborator, source);
-  const std::size_t run = batch_prover.run();
-  BatchReader reader(source, (batch_segments + run - 1) / run * run);
   BatchWriter writer(source, prover, elaborator, certificate, csv);
   csv(batch_prover.csv_header());
   std::size_t done = 0;

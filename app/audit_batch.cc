@@ -79,20 +79,13 @@ void BatchReader::require_on_constraints(const Batch& batch) const {
 
 // ---- BatchProver ----------------------------------------------------------------------------------------------------
 
-namespace {
-
-constexpr std::size_t kLongPath = 1024;
-
-}  // namespace
-
 BatchProver::BatchProver(const Prover& prover, const Elaborator& elaborator, const PathSource& source)
     : elaborator_(elaborator),
       prover_(prover),
       problem_(source.problem()),
       law_(source.law()),
       csv_(source.problem(), source.law(), source.has_times()),
-      samples_(samples_for(source.segments())),
-      run_(source.segments() >= kLongPath ? ClearRun::length(prover) : 1) {}
+      samples_(samples_for(source.segments())) {}
 
 void BatchProver::prove(Batch& batch, const std::stop_token& stop) const {
   const std::size_t first_waypoint = batch.first_segment;
@@ -101,19 +94,13 @@ void BatchProver::prove(Batch& batch, const std::stop_token& stop) const {
     batch.waypoint_texts.push_back(waypoint_text(law_, waypoint.waypoint));
     if (!waypoint.is_copy) batch.csv += csv_.row(first_waypoint + i, waypoint.waypoint, time_text(waypoint));
   }
-  for (std::size_t begin = 0; begin < batch.segments.size(); begin += run_) {
-    const std::size_t count = std::min(run_, batch.segments.size() - begin);
-    ClearRun clear(
-        prover_, [&](std::size_t k) { return batch.segment(law_, begin + k); }, count);
-    for (std::size_t k = 0; k < count; ++k) batch.segments[begin + k] = prove(batch, begin + k, clear.at(k), stop);
-  }
+  for (std::size_t i = 0; i < batch.segments.size(); ++i) batch.segments[i] = prove(batch, i, stop);
 }
 
-SegmentResult BatchProver::prove(const Batch& batch, std::size_t i, const ClearPoses* clear,
-                                 const std::stop_token& stop) const {
+SegmentResult BatchProver::prove(const Batch& batch, std::size_t i, const std::stop_token& stop) const {
   SegmentResult result;
   result.segment = prover_.prepared(batch.segment(law_, i));
-  SegmentSurvey survey = prover_.survey(result.segment, stop, clear);
+  SegmentSurvey survey = prover_.survey(result.segment, stop);
   result.boxes_judged = survey.boxes_judged;
   const std::size_t number = batch.first_segment + i;
   for (SurveyedBox& box : survey.boxes) {

@@ -11,7 +11,6 @@
 
 #include "app/path_source.h"
 #include "certificate/elaborate.h"
-#include "certify/clear_run.h"
 #include "certify/gaps.h"
 #include "certify/gravest.h"
 #include "kinematics/pose_sampler.h"
@@ -83,13 +82,9 @@ class BatchProver {
   /// The first line of path.csv.
   [[nodiscard]] std::string csv_header() const { return csv_.header(); }
   void prove(Batch& batch, const std::stop_token& stop) const;
-  /// How many segments are proved in one run (clear_run.h), which begins at a multiple of it, however many processors
-  /// there are. A short path is rather spread over all of these.
-  [[nodiscard]] std::size_t run() const { return run_; }
 
  private:
-  [[nodiscard]] SegmentResult prove(const Batch& batch, std::size_t i, const ClearPoses* clear,
-                                    const std::stop_token& stop) const;
+  [[nodiscard]] SegmentResult prove(const Batch& batch, std::size_t i, const std::stop_token& stop) const;
   [[nodiscard]] SegmentStretch stretch(const Segment& segment, std::size_t number, const Gap& gap) const;
   [[nodiscard]] SampledViolations sampled(const Segment& segment, const Gap& gap) const;
 
@@ -98,8 +93,7 @@ class BatchProver {
   const Problem& problem_;
   Interpolation law_;
   PathCsv csv_;
-  int samples_;      ///< in a stretch of a segment
-  std::size_t run_;  ///< segments
+  int samples_;  ///< in a stretch of a segment
 };
 
 }  // namespace taut

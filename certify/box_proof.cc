@@ -794,14 +794,12 @@ PairBound bound_along(const BodyGaps<I>& gaps, const CheckedPair<I>& pair, const
   return result;
 }
 
-constexpr double kJustPositive = std::numeric_limits<double>::min();
-
 template <class I>
 PairBound bound_of_mesh(const BodyGaps<I>& gaps, const CheckedPair<I>& pair, std::span<const Direction> directions) {
   using Where = typename BodyGaps<I>::Where;
-  PairBound result{gaps.of_mesh(pair, directions, Where::kBox, kJustPositive)};
+  PairBound result{gaps.of_mesh(pair, directions, Where::kBox)};
   if (result.lower > 0) return result;
-  const auto is_apart = [&](Where where) { return gaps.of_mesh(pair, directions, where, kJustPositive) > 0; };
+  const auto is_apart = [&](Where where) { return gaps.of_mesh(pair, directions, where) > 0; };
   if (is_apart(Where::kMid)) {
     result.at_mid = AtMid::kApart;
   } else if (is_apart(Where::kMidUndisturbed)) {

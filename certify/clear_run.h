@@ -15,11 +15,12 @@
 
 namespace taut {
 
-/// Of segments that follow one another. It asks more of parts of them, as fewer bodies come near these. Thread-safe.
+/// Shared by segments that follow one another. Parts of the stretch are asked again for the pairs that the whole of it
+/// leaves, since fewer bodies come near a part. Thread-safe.
 class ClearRun {
  public:
-  /// How many segments are worth one: 1 where they share nothing, or where each is work enough by itself, as with
-  /// meshes.
+  /// How many segments share one: 1 where nothing can be shared, or where each takes so long, as with meshes, that it
+  /// is not worth it.
   [[nodiscard]] static std::size_t length(const Prover& prover);
 
   /// @param segment  the k-th, 0 <= k < count; called by at() only

@@ -255,9 +255,9 @@ SegmentProof Prover::prove(const Segment& segment, double clearance, const std::
   return proof;
 }
 
-SegmentSurvey Prover::survey(const Segment& segment, const std::stop_token& stop, const ClearPoses* clear) const {
+SegmentSurvey Prover::survey(const Segment& segment, const std::stop_token& stop) const {
   if (!is_admissible(segment)) return open_survey(segment.law, range_violation(segment));
-  return SegmentWalk(*this, segment, 0, SegmentWalk::Extent::kWhole, stop, ProofAim::kDecide, clear).run();
+  return SegmentWalk(*this, segment, 0, SegmentWalk::Extent::kWhole, stop).run();
 }
 
 MpInterval Prover::witnessed_quantity(const Segment& segment, const SegmentWitness& witness) const {

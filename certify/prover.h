@@ -79,8 +79,7 @@ class Prover {
   /// The claim of prove() box by box, where it does not stop at what it can't prove: for paths of which all violations
   /// are asked for. A segment that is proved costs what prove() takes. Boxes that `stop` leaves are open,
   /// "interrupted".
-  [[nodiscard]] SegmentSurvey survey(const Segment& segment, const std::stop_token& stop = {},
-                                     const ClearPoses* clear = nullptr) const;
+  [[nodiscard]] SegmentSurvey survey(const Segment& segment, const std::stop_token& stop = {}) const;
 
   /// One box, at the cheapest rung that decides it. Bodies are not judged.
   [[nodiscard]] BoxVerdict judge(const Segment& segment, const DyadicBox& box) const;

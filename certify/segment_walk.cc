@@ -9,8 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "certify/bodies/clear_poses.h"
-
 namespace taut {
 namespace {
 

@@ -88,7 +88,7 @@ inline Interval operator*(double x, Interval a) {
 }
 inline Interval operator*(Interval a, double x) { return x * a; }
 
-/// a b, sooner. @pre b.lower() >= 0
+/// a * b, with half the multiplications. @pre b.lower() >= 0
 inline Interval times_nonnegative(Interval a, Interval b) {
   const __m128d least = _mm_xor_pd(_mm_unpacklo_pd(b.v_, b.v_), _mm_set1_pd(-0.0));
   return Interval(_mm_max_pd(_mm_mul_pd(a.v_, least), _mm_mul_pd(a.v_, b.high())));

@@ -20,28 +20,27 @@ BodyGaps<I, Slope>::BodyGaps(const BodiesBox<I, Slope>& box) : box_(box) {
   }
   for (std::size_t i = 0; i < kCables; ++i) {
     const auto& free = box.bodies.cable_free[i];
-    // A deviating cable may be longer by this, so that its free ends are smaller shares of it.
-    I change(0.0);
-    if (box.tolerance != nullptr) change = I(ProofScalarTraits<I>::to_double(box.deviations->length[i]));
-    if (!certainly_positive(box.length[i].range - change - free[0] - free[1])) have_length_ = false;
-    if ((box.bodies.is_cut[i][0] || box.bodies.is_cut[i][1]) && !certainly_positive(I(box.length[i].range + change)))
-      have_length_ = false;
+    if (!certainly_positive(box.length[i].range - length_change(i) - free[0] - free[1])) have_length_ = false;
   }
   platform_bodies_.resize(box.bodies.platform.size());
 }
 
 template <class I, class Slope>
+I BodyGaps<I, Slope>::length_change(std::size_t i) const {
+  if (box_.tolerance == nullptr) return I(0.0);
+  return I(ProofScalarTraits<I>::to_double(box_.deviations->length[i]));
+}
+
+// Of a cable that may be longer, free ends are smaller shares.
+template <class I, class Slope>
 const typename BodyGaps<I, Slope>::Cut& BodyGaps<I, Slope>::cut(std::size_t i) const {
   if (cut_[i]) return *cut_[i];
-  I change(0.0);
-  if (box_.tolerance != nullptr) change = I(ProofScalarTraits<I>::to_double(box_.deviations->length[i]));
   Cut& cut = cut_[i].emplace(Cut{{Form(0.0), Form(0.0)}});
-  const auto& is_cut = box_.bodies.is_cut[i];
-  const Form longest = box_.length[i] + change;
-  if ((!is_cut[0] && !is_cut[1]) || !certainly_positive(longest.range)) return cut;
+  const Form longest = box_.length[i] + length_change(i);
+  if (!certainly_positive(longest.range)) return cut;
   const Form inverse = reciprocal(longest);
   for (std::size_t end = 0; end < 2; ++end) {
-    if (!is_cut[end]) continue;
+    if (!box_.bodies.is_cut[i][end]) continue;
     cut.share[end] = inverse * box_.bodies.cable_free[i][end];
     cut.share[end].tighten(box_.offset);
   }
@@ -52,11 +51,8 @@ template <class I, class Slope>
 const std::array<I, 2>& BodyGaps<I, Slope>::shares(std::size_t i) const {
   if (shares_[i]) return *shares_[i];
   const auto& free = box_.bodies.cable_free[i];
-  if (box_.tolerance != nullptr) {
-    return shares_[i].emplace(std::array<I, 2>{cut(i).share[0].range, cut(i).share[1].range});
-  }
-  const I& length = box_.length[i].range;
-  const I inverse = certainly_positive(length) ? reciprocal(length) : I(0.0);
+  const I longest = box_.length[i].range + length_change(i);
+  const I inverse = certainly_positive(longest) ? reciprocal(longest) : I(0.0);
   return shares_[i].emplace(std::array<I, 2>{times_of_sign(inverse, free[0]), times_of_sign(inverse, free[1])});
 }
 

@@ -128,9 +128,8 @@ class BodyGaps {
   enum class Where { kBox, kMid, kMidUndisturbed };
   /// The same for a pair with a mesh: each pair of the bodies' elements is farther apart than the clearance by at least
   /// what is returned, along one of the directions.
-  /// @param enough  no larger bound than this is needed
-  [[nodiscard]] double of_mesh(const CheckedPair<I>& pair, std::span<const Direction> directions, Where where,
-                               double enough) const;
+  /// Of bounds that are positive any will do.
+  [[nodiscard]] double of_mesh(const CheckedPair<I>& pair, std::span<const Direction> directions, Where where) const;
   /// Of a pair whose surfaces do not touch: kOutside if at m, of the undisturbed machine, no part of either body is
   /// inside of the other, where that is a watertight mesh; kInside if a part certainly is.
   [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair) const;
@@ -185,8 +184,11 @@ class BodyGaps {
   /// The sum of shares times points.
   [[nodiscard]] static Vector3<Form> mean(const std::vector<Vector3<Form>>& points,
                                           const std::vector<std::int64_t>& shares);
+  /// How much longer or shorter than stated a deviating cable may be [m].
+  [[nodiscard]] I length_change(std::size_t cable) const;
   [[nodiscard]] const Cut& cut(std::size_t cable) const;
-  [[nodiscard]] const std::array<I, 2>& shares(std::size_t cable) const;  ///< ranges of the same
+  /// λ_0 and λ_1, anywhere in T.
+  [[nodiscard]] const std::array<I, 2>& shares(std::size_t cable) const;
   [[nodiscard]] Vector3<I> range_in_world(const Vector3<I>& x_P) const;
   [[nodiscard]] const Vector3<I>& platform_anchor(std::size_t cable) const;  ///< in W, anywhere in T
   [[nodiscard]] const Vector3<I>& platform_body(std::size_t body) const;     ///< a box around its points, likewise

@@ -46,7 +46,7 @@ I times(const I& x, const I& y) {
   return x * y;
 }
 
-/// A product with something that has one sign as a rule.
+/// x * y, quickly where all of y has one sign.
 inline Interval times_of_sign(const Interval& x, const Interval& y) {
   if (y.lower() >= 0) return times_nonnegative(x, y);
   if (y.upper() <= 0) return -times_nonnegative(x, -y);

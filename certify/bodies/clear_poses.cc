@@ -53,7 +53,7 @@ Interval common(const Interval& a, const Interval& b) {
 }
 
 bool is_within(const Interval& inner, const Interval& outer) {
-  return outer.lower() <= inner.lower() && inner.upper() <= outer.upper();
+  return taut::contains(outer, inner.lower()) && taut::contains(outer, inner.upper());
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ class ClearPoses {
     const Model<double>& in_doubles;
   };
   enum class Use {
-    kProofs,   ///< of segments
-    kSmaller,  ///< of smaller boxes first
+    kProofs,   ///< its directions are to be stated in certificates: those of near pairs are chosen with care
+    kSmaller,  ///< smaller boxes within it are asked first for the pairs that it leaves
   };
 
   /// In a box around some poses, widened by 1.5 times the largest step from one to the next. Restores the caller's

@@ -25,13 +25,14 @@ class BodyGaps<I, Slope>::MeshGaps {
     for (const Direction& direction : directions) add(direction);
   }
 
-  [[nodiscard]] double least(double enough) const {
+  [[nodiscard]] double least() const {
+    constexpr double kEnough = std::numeric_limits<double>::min();
     const auto root = [](const PlacedMesh<I>* mesh) { return MeshPart{mesh == nullptr ? nullptr : mesh->mesh.get()}; };
     const auto gap = [&](std::size_t k, std::span<const MeshBox> a, std::span<const MeshBox> b) {
       return lower_bound(I(first_of(sides_[k], a) - second_of(sides_[k], b) - needed_));
     };
     constexpr double kShare = 0.9;  // of the bound: only its sign matters much
-    CoverOptions options{.enough = enough, .share = kShare, .floor = 0};
+    CoverOptions options{.enough = kEnough, .share = kShare, .floor = 0};
     if (first_ != nullptr && second_ != nullptr) {
       options.scale = lower_bound(second_->unit) / lower_bound(first_->unit);
     }
@@ -167,9 +168,9 @@ const PlacedMesh<I>* BodyGaps<I, Slope>::mesh(const CheckedPair<I>& pair, bool i
 }
 
 template <class I, class Slope>
-double BodyGaps<I, Slope>::of_mesh(const CheckedPair<I>& pair, std::span<const Direction> directions, Where where,
-                                   double enough) const {
-  return MeshGaps(*this, pair, directions, where).least(enough);
+double BodyGaps<I, Slope>::of_mesh(const CheckedPair<I>& pair, std::span<const Direction> directions,
+                                   Where where) const {
+  return MeshGaps(*this, pair, directions, where).least();
 }
 
 template <class I, class Slope>
@@ -252,9 +253,7 @@ template const PlacedMesh<Interval>* BodyGaps<Interval, Gradient<Interval, 3>>::
                                                                                      bool) const;
 template MeshSide BodyGaps<Interval>::side_at_mid(const CheckedPair<Interval>&) const;
 template MeshSide BodyGaps<MpInterval>::side_at_mid(const CheckedPair<MpInterval>&) const;
-template double BodyGaps<Interval>::of_mesh(const CheckedPair<Interval>&, std::span<const Direction>, Where,
-                                            double) const;
-template double BodyGaps<MpInterval>::of_mesh(const CheckedPair<MpInterval>&, std::span<const Direction>, Where,
-                                              double) const;
+template double BodyGaps<Interval>::of_mesh(const CheckedPair<Interval>&, std::span<const Direction>, Where) const;
+template double BodyGaps<MpInterval>::of_mesh(const CheckedPair<MpInterval>&, std::span<const Direction>, Where) const;
 
 }  // namespace taut

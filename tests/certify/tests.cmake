@@ -6,7 +6,7 @@ taut_add_test(certify certificate LABELS unit LIBS taut::case taut::certificate 
 taut_add_test(certify certificate_writer LABELS unit LIBS taut::case taut::certificate TOGETHER)
 taut_add_test(certify mesh_bodies LABELS unit LIBS taut::case taut::certificate)
 taut_add_test(certify body_certificate LABELS unit LIBS taut::case taut::certificate TOGETHER)
-taut_add_test(certify bodies LABELS unit LIBS taut::case taut::certify fmt::fmt)
+taut_add_test(certify bodies LABELS unit LIBS taut::case taut::certificate fmt::fmt)
 taut_add_test(certify grazing LABELS unit LIBS taut::case taut::certify TOGETHER)
 taut_add_test(certify undecided LABELS unit LIBS taut::certify TOGETHER)
 taut_add_test(certify length_controlled_motion LABELS unit LIBS taut::case taut::certify TOGETHER)
