@@ -90,6 +90,13 @@ bool is_same(Law law, const Waypoint& waypoint, const ExpectedPath::Row& expecte
          (is_near(1) || is_near(-1));
 }
 
+/// Both were computed in floating point, on machines that may round differently.
+bool has_normals(const Waypoint& waypoint, const ExpectedPath::Row& expected) {
+  constexpr double kRounding = 1e-9;  // of columns of length 1
+  return std::ranges::equal(waypoint.normals, expected.normals,
+                            [](double a, double b) { return std::abs(a - b) <= kRounding; });
+}
+
 const char* name(Law law) { return std::ranges::find(kLaws, law, &std::pair<const char*, Law>::second)->first; }
 
 /// The certificate's path is the file's: its law, its waypoints and, where either names the other, its digest.
@@ -98,25 +105,29 @@ void require_path(const Certificate& certificate, const std::string& sha256, con
   const auto require = [&](bool holds, const std::string& what) {
     if (!holds) throw Rejected("the path is not that of " + file.name + ": " + what);
   };
-  require(file.certificate_sha256.empty() || file.certificate_sha256 == sha256,
+  const bool is_source = certificate.source && certificate.source->sha256 == file.sha256;
+  require(file.certificate_sha256.empty() || file.certificate_sha256 == sha256 || is_source,
           "the file names another certificate's SHA-256");
-  const bool is_fitted = path.timing && path.law == Law::kCubicBSpline && file.law != path.law && certificate.source &&
-                         certificate.source->sha256 == file.sha256;
+  const bool is_fitted = path.timing && path.law == Law::kCubicBSpline && file.law != path.law && is_source;
   require(!is_fitted,
           "the certificate is about a move that was fitted to this file's rows, which are no points of it: compare the "
           "path.csv beside the certificate");
   require(path.law == file.law,
           std::string("the certificate's interpolation is ") + name(path.law) + ", the file's is " + name(file.law));
+  require(certificate.problem_json["space"] == file.space,
+          "the certificate's parameters are not those of the file's rows");
   const bool stays = file.waypoints.size() == 1 && path.waypoints.size() == 2;  // a segment that stays at one pose
   require(path.waypoints.size() == file.waypoints.size() || stays,
           "the certificate has " + std::to_string(path.waypoints.size()) + " waypoints, the file has " +
               std::to_string(file.waypoints.size()));
   for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
     const ExpectedPath::Row& row = file.waypoints[stays ? 0 : k];
-    if (is_same(path.law, path.waypoints[k], row)) continue;
-    require(false, "waypoint " + std::to_string(k) + " differs from line " + std::to_string(row.line) + " of the file");
+    const std::string line = "line " + std::to_string(row.line) + " of the file";
+    require(is_same(path.law, path.waypoints[k], row), "waypoint " + std::to_string(k) + " differs from " + line);
+    require(has_normals(path.waypoints[k], row),
+            "the normals of waypoint " + std::to_string(k) + " are not those of the constraints at " + line);
   }
-  require(!file.certificate_sha256.empty() || !certificate.source || certificate.source->sha256 == file.sha256,
+  require(!file.certificate_sha256.empty() || !certificate.source || is_source,
           "the file that was audited has another SHA-256");
 }
 

@@ -41,17 +41,19 @@ enum class Outcome {
 
 enum class Law;  // of kernel/statement.h, which this header leaves out as it needs Arb
 
-/// A path that the certificate's must equal: its law, and its waypoints bit for bit. Under the law of cable lengths
-/// these are the lengths; the poses beside them, which only say in which assembly the robot is, must agree to 1e-6 m
-/// and 1e-6.
+/// A path that the certificate's must equal: its space, its law, and its waypoints bit for bit. Under the law of cable
+/// lengths these are the lengths; the poses beside them, which only say in which assembly the robot is, must agree to
+/// 1e-6 m and 1e-6. On constraints the normals, which lead to the motion between waypoints, must agree to 1e-9.
 struct ExpectedPath {
   struct Row {
     std::vector<double> x;
     std::vector<int> half_turns;  ///< under a law of poses there are none to compare
+    std::vector<double> normals;  ///< of the constraints at x, as in certificates, from floating point
     std::size_t line = 0;         ///< of the file, for messages
   };
   std::string name;  ///< of the file, for messages
   Law law{};
+  nlohmann::json space;            ///< what the numbers of rows are, as in a certificate's `problem`
   std::vector<Row> waypoints;      ///< a single one is a path that stays there
   std::string sha256;              ///< of the file
   std::string certificate_sha256;  ///< that the file names as its certificate's; empty where it names none

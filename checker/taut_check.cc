@@ -68,11 +68,14 @@ ExpectedPath read_expected_path(const std::string& text, const std::string& name
   ExpectedPath path;
   path.name = name;
   path.law = std::ranges::find(kLawNames, maker.law(), &LawNames::of_file)->of_kernel;
+  path.space = to_json(maker.problem())["space"];
   path.sha256 = sha256(text);
   path.certificate_sha256 = named_certificate(text);
   for (PathRow row; file.next(row);) {
     const taut::Waypoint& waypoint = maker.next(row, file.start());
-    path.waypoints.push_back({numbers(waypoint), half_turns(waypoint), row.line});
+    const auto* const point = std::get_if<taut::ParameterPoint>(&waypoint.point());
+    path.waypoints.push_back(
+        {numbers(waypoint), half_turns(waypoint), point != nullptr ? point->normals : std::vector<double>(), row.line});
   }
   return path;
 }

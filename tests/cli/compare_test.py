@@ -9,9 +9,13 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import threading
 
-from command_line import AUDITS, CHECK, InFolder, ROBOT1, SOURCE, TAUT, main, run, text_of
+from command_line import AUDITS, CASES, CHECK, InFolder, ROBOT1, SOURCE, TAUT, main, run, text_of
+
+sys.path.insert(0, os.path.join(SOURCE, "tests", "certificates"))
+from sealing import hex64, seal  # noqa: E402
 
 ROWS = ["phi[deg],theta[deg]", "-88.9,80.2", "-88,80.4", "-87.5,80.4", "-87,80.1"]
 
@@ -73,6 +77,53 @@ class Compare(InFolder):
             message = self.check("--path", self.write("other.csv", "\n".join(rows)), code=1)
             self.assertTrue(message.startswith("rejected: the path is not that of "), message)
             self.assertIn(said, message)
+
+    def alter(self, change):
+        certificate = json.loads(text_of(self.path("certificate.json")))
+        change(certificate)
+        seal(certificate)
+        self.write("certificate.json", json.dumps(certificate, sort_keys=True))
+
+    def test_the_same_numbers_as_other_angles_are_another_path(self):
+        """Of a table of tilt and torsion: a right proof of what the same numbers mean as roll, pitch and yaw."""
+        rows = ["0,0,350,0.6,0.9,0.6", "0,0,350,0.62,0.9,0.6"]
+        slice = "  slice: {px: 0, py: 0, pz: 350, sigma: 34 deg}"
+        turned = text_of(ROBOT1).split("\nquery:")[0].replace(slice, "  angles: roll-pitch-yaw\n  slice: {px: 0, py: 0, pz: 350, yaw: 0}")
+        turned = self.write("turned.yaml", turned)
+        self.audit(rows=["px[mm],py[mm],pz[mm],roll[rad],pitch[rad],yaw[rad]"] + rows, case=turned)
+        asked = self.write("asked.csv", "\n".join(["px[mm],py[mm],pz[mm],phi[rad],theta[rad],sigma[rad]"] + rows))
+        with open(asked, "rb") as file:
+            digest = hashlib.sha256(file.read()).hexdigest()
+        self.alter(lambda certificate: certificate["source"].update(sha256=digest))
+        self.check(code=0)
+        self.assertIn("the certificate's parameters are not those of the file's rows",
+                      self.check("--path", asked, code=1))
+
+    def test_other_normals_are_another_path(self):
+        """Between rows on constraints the motion depends on the normals that a certificate states."""
+        case = os.path.join(CASES, "robot2-implicit-rail.yaml")
+        self.assertEqual(run(TAUT, "plan", case, "--out", self.path("planned")).returncode, 0)
+        path = self.path("planned", "path.csv")
+        audited = run(TAUT, "audit", case, path, "--out", self.out)
+        self.assertEqual(audited.returncode, 0, audited.stdout + audited.stderr)
+        rows = self.write("rows.csv", "".join(line for line in text_of(path).splitlines(True) if line[0] != "#"))
+        with open(rows, "rb") as file:
+            digest = hashlib.sha256(file.read()).hexdigest()
+        self.alter(lambda certificate: certificate["source"].update(sha256=digest))
+        self.check("--path", rows, code=0, case=case)
+
+        def turn(by):
+            def change(certificate):
+                normals = certificate["path"]["waypoints"][1]["normals"]
+                normals[0] = hex64(float.fromhex(normals[0]) + by)
+            return change
+
+        self.alter(turn(1e-12))
+        self.check("--path", rows, code=0, case=case)
+        self.alter(turn(1e-7))
+        self.check(code=0, case=case)
+        self.assertIn("the normals of waypoint 1 are not those of the constraints at line 3 of the file",
+                      self.check("--path", rows, code=1, case=case))
 
     def test_another_law_is_rejected(self):
         path = self.audit("--interpolation", "geodesic")
