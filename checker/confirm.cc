@@ -116,7 +116,7 @@ class Confirmation {
       } else {
         confirm_violation(machine, problem_, path_, witness);
       }
-      if (path_.segments() == 0) require_near_waypoints(machine, problem_, path_, 0, witness.at_box);
+      require_near_waypoints(machine, problem_, path_, witness.at.segment, witness.at_box);
     });
   }
 
