@@ -8,6 +8,8 @@
 // rounds' ones. Times are of this thread's processor.
 //
 // Usage: body_cost [--quick | --proofs | --mesh]; Markdown on stdout. --proofs: without the mesh; --mesh: only it.
+#include <tbb/global_control.h>
+
 #include <string_view>
 
 #include "bench/scenes.h"
@@ -104,6 +106,7 @@ std::vector<Kind> kinds(const std::string& file, const std::string& clearance, c
 }
 
 void compare_proofs(bool is_quick) {
+  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
   fmt::print("| path | pairs | of them | proved | boxes judged | a segment, us | **ratio** |\n");
   fmt::print("|---|---|---|---|---|---|---|\n");
   const std::string crane = "cranes/portal-20t-between.yaml";

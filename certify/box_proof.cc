@@ -841,6 +841,7 @@ void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure
   } else {
     for (std::size_t n = 0; n < directions.single.size(); ++n) judge_pair(n);
   }
+  if (!problem.bodies->has_meshes) return;
   for (std::size_t n = 0; verdict.kind == BoxVerdict::Kind::kProved && n < directions.single.size(); ++n) {
     const CheckedPair<I>& pair = problem.bodies->pairs[n];
     const MeshSide side = pair.has_mesh ? gaps.side_at_mid(pair) : MeshSide::kOutside;

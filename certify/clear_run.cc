@@ -5,12 +5,27 @@
 #include <span>
 
 namespace taut {
+namespace {
 
-std::size_t ClearRun::length(const Prover& prover) {
-  if (prover.bodies() == nullptr || prover.problem().tolerances) return 1;
-  const auto& pairs = prover.bodies()->bodies().pairs;
-  return std::ranges::any_of(pairs, &CheckedPair<double>::has_mesh) ? 1 : kParts * kPart;
+constexpr std::size_t kShortest = 16;     ///< run of a path that is not shorter; up to 31
+constexpr std::size_t kShortestPart = 4;  ///< of a run; up to 7
+
+/// The length of stretches of about the same length, the last of which may be shorter: where there are `shortest`, none
+/// but that one is shorter, and none is twice as long.
+std::size_t even_length(std::size_t count, std::size_t shortest) {
+  const std::size_t stretches = std::max<std::size_t>(count / shortest, 1);
+  return (count + stretches - 1) / stretches;
 }
+
+}  // namespace
+
+std::size_t ClearRun::length(const Prover& prover, std::size_t segments) {
+  if (prover.bodies() == nullptr || prover.problem().tolerances) return 1;
+  return prover.bodies()->bodies().has_meshes ? 1 : even_length(segments, kShortest);
+}
+
+ClearRun::ClearRun(const Prover& prover, std::function<Segment(std::size_t k)> segment, std::size_t count)
+    : prover_(prover), segment_(std::move(segment)), count_(count), part_(even_length(count, kShortestPart)) {}
 
 template <class F>
 const ClearPoses* ClearRun::get(Made& made, F&& make) {
@@ -28,7 +43,7 @@ const ClearPoses* ClearRun::at(std::size_t k) {
   if (count_ < 2) return nullptr;
   const ClearPoses* whole = get(whole_, [this] { return make_whole(); });
   if (whole == nullptr || whole->others().empty()) return whole;
-  return get(parts_.at(k / kPart), [this, k] { return make_part(k / kPart); });
+  return get(parts_.at(k / part_), [this, k] { return make_part(k / part_); });
 }
 
 std::unique_ptr<const ClearPoses> ClearRun::make_whole() {
@@ -43,7 +58,7 @@ std::unique_ptr<const ClearPoses> ClearRun::make_whole() {
 }
 
 std::unique_ptr<const ClearPoses> ClearRun::make_part(std::size_t part) const {
-  const std::size_t first = kPart * part, last = std::min(first + kPart, count_);
+  const std::size_t first = part_ * part, last = std::min(first + part_, count_);
   return prover_.clear_poses(std::span(ends_).subspan(first, last - first + 1), whole_.poses.get(),
                              ClearPoses::Use::kProofs);
 }

@@ -19,20 +19,19 @@ namespace taut {
 /// leaves, since fewer bodies come near a part. Thread-safe.
 class ClearRun {
  public:
-  /// How many segments share one: 1 where nothing can be shared, or where each takes so long, as with meshes, that it
-  /// is not worth it.
-  [[nodiscard]] static std::size_t length(const Prover& prover);
+  /// How many of so many segments share one: 1 where nothing can be shared, or where each takes so long, as with
+  /// meshes, that it is not worth it.
+  [[nodiscard]] static std::size_t length(const Prover& prover, std::size_t segments);
 
   /// @param segment  the k-th, 0 <= k < count; called by at() only
-  /// @param count  at most length()
-  ClearRun(const Prover& prover, std::function<Segment(std::size_t k)> segment, std::size_t count)
-      : prover_(prover), segment_(std::move(segment)), count_(count) {}
+  /// @param count  at most what length() returned
+  ClearRun(const Prover& prover, std::function<Segment(std::size_t k)> segment, std::size_t count);
 
   /// For the proof of segment k; null: nothing is known. It does not depend on what was asked before.
   [[nodiscard]] const ClearPoses* at(std::size_t k);
 
  private:
-  static constexpr std::size_t kParts = 4, kPart = 4;  ///< a part's segments
+  static constexpr std::size_t kMostParts = 7;
 
   /// Made once, by the first that asks; std::call_once() takes longer to see that it was.
   struct Made {
@@ -48,10 +47,11 @@ class ClearRun {
   const Prover& prover_;
   std::function<Segment(std::size_t k)> segment_;
   std::size_t count_;
+  std::size_t part_;  ///< how many segments a part has
   std::mutex mutex_;
   std::vector<RigidPose> ends_;  ///< of segments
   Made whole_;
-  std::array<Made, kParts> parts_;
+  std::array<Made, kMostParts> parts_;
 };
 
 }  // namespace taut

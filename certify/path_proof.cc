@@ -148,7 +148,7 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
     return result;
   }
   result.segments.resize(path.segments());
-  const std::size_t length = path.timing ? 1 : ClearRun::length(prover);
+  const std::size_t length = path.timing ? 1 : ClearRun::length(prover, path.segments());
   std::deque<ClearRun> runs;
   for (std::size_t begin = 0; length > 1 && begin < path.segments(); begin += length) {
     const auto segment = [&path, begin](std::size_t k) { return path.segment(begin + k); };

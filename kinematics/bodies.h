@@ -103,6 +103,7 @@ struct BodyModel {
   std::array<std::array<bool, 2>, kCables> is_cut;   ///< whether they are not exactly 0
   std::vector<ExitCone<S>> exit_cones;
   std::vector<CheckedPair<S>> pairs;
+  bool has_meshes = false;  ///< some pair has_mesh
 };
 
 /// Of an exit cone: |d| sin(half-angle − t), how far the other end of the cable is inside, where d is the vector to it

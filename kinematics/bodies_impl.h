@@ -204,6 +204,7 @@ BodyModel<S> make_body_model(const Problem& problem) {
                                ScalarTraits<S>::from_decimal(zone.depth_m)});
     }
     set_bodies(model, checked);
+    model.has_meshes = model.has_meshes || checked.has_mesh;
     model.pairs.push_back(std::move(checked));
   }
   return model;

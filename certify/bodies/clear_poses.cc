@@ -24,25 +24,31 @@ PoseNumbers numbers_of(const RigidPose& pose) {
   return result;
 }
 
-/// @pre some poses
+/// Widened, as enclosures of curved motions are wider than what they enclose: by the more the more differences of
+/// poses change, where that can be told. @pre some poses
 std::array<Interval, 12> box_around(std::span<const RigidPose> poses) {
-  constexpr double kSteps = 1.5;   // enclosures of curved motions are wider than what they enclose
+  constexpr double kDifference = 0.2, kChange = 4, kMostDifference = 1.5;
   constexpr double kLeast = 1e-9;  // of the numbers
   PoseNumbers last = numbers_of(poses.front());
-  PoseNumbers lowest = last, highest = last, step{};
-  for (const RigidPose& pose : poses.subspan(1)) {
-    const PoseNumbers at = numbers_of(pose);
+  PoseNumbers lowest = last, highest = last, before{}, difference{}, change{};
+  for (std::size_t n = 1; n < poses.size(); ++n) {
+    const PoseNumbers at = numbers_of(poses[n]);
     for (std::size_t k = 0; k < at.size(); ++k) {
       lowest[k] = std::min(lowest[k], at[k]);
       highest[k] = std::max(highest[k], at[k]);
-      step[k] = std::max(step[k], std::abs(at[k] - last[k]));
+      const double here = at[k] - last[k];
+      difference[k] = std::max(difference[k], std::abs(here));
+      if (n > 1) change[k] = std::max(change[k], std::abs(here - before[k]));
+      before[k] = here;
     }
     last = at;
   }
   std::array<Interval, 12> result;
   for (std::size_t k = 0; k < result.size(); ++k) {
-    const double wider = kSteps * step[k] + kLeast * (1 + std::max(std::abs(lowest[k]), std::abs(highest[k])));
-    result[k] = Interval(lowest[k] - wider, highest[k] + wider);
+    const double most = kMostDifference * difference[k];
+    const double wider = poses.size() > 2 ? std::min(kDifference * difference[k] + kChange * change[k], most) : most;
+    const double little = kLeast * (1 + std::max(std::abs(lowest[k]), std::abs(highest[k])));
+    result[k] = Interval(lowest[k] - wider - little, highest[k] + wider + little);
   }
   return result;
 }

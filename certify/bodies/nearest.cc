@@ -278,8 +278,11 @@ std::vector<std::int64_t> rounded_shares(std::span<const double> shares) {
   return result;
 }
 
-/// std::gcd of two numbers that are not negative. Those up to Direction::kCoarse are asked for again and again.
+/// std::gcd of two numbers that are not negative. Those up to Direction::kCoarse, and those up to kFine with it, a
+/// prime, are asked for again and again.
 int common_divisor(int a, int b) {
+  if (a == 1) return 1;
+  if (a == Direction::kFine && b <= a) return b == 0 || b == a ? a : 1;
   constexpr std::size_t kSize = Direction::kCoarse + 1;
   static constexpr auto kTable = [] {
     std::array<std::array<std::int8_t, kSize>, kSize> table{};
@@ -299,7 +302,7 @@ Direction rounded_direction(const Point& along, bool in_platform, int largest) {
   if (!along.allFinite() || !(size > kLeast)) return {in_platform, {0, 0, 1}};
   const Point scaled = along * (largest / size);
   Direction result{in_platform, {}};
-  int divisor = 0;
+  int divisor = largest;  // so large is one of them, or its opposite
   for (int k = 0; k < 3; ++k) {
     const int x = static_cast<int>(scaled(k) + std::copysign(0.5, scaled(k)));
     result.u[static_cast<std::size_t>(k)] = x;

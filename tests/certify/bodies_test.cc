@@ -11,6 +11,7 @@
 #include "certify/arithmetic/rounding.h"
 #include "certify/bodies/body_gaps.h"
 #include "certify/bodies/nearest.h"
+#include "certify/clear_run.h"
 #include "certify/path_proof.h"
 #include "certify/prover.h"
 #include "tests/support/robots.h"
@@ -436,6 +437,47 @@ TEST(ClearPoses, ChangeNoVerdict) {
   }
   EXPECT_GT(proved, 5);
   EXPECT_GT(others, 5);
+}
+
+TEST(ClearRun, KnowsOfEachOfItsSegments) {
+  const Prover prover(crane());
+  const auto is_within = [](const ClearPoses& clear, const RigidPose& pose) {
+    const Matrix3<double> turn = pose.q.toRotationMatrix();
+    Vector3<SlopeForm<Interval>> p;
+    Matrix3<SlopeForm<Interval>> r;
+    for (int i = 0; i < 3; ++i) {
+      p(i) = Interval(pose.p(i));
+      for (int j = 0; j < 3; ++j) r(i, j) = Interval(turn(i, j));
+    }
+    return clear.contains(p, r);
+  };
+  int known = 0;
+  for (const std::size_t segments : {1, 2, 3, 5, 7, 8, 15, 16, 17, 31, 32, 47, 63, 64, 100}) {
+    std::vector<Waypoint> waypoints;
+    for (std::size_t k = 0; k <= segments; ++k) {
+      waypoints.push_back(at({-2 + 4.0 * static_cast<double>(k) / static_cast<double>(segments), 0, 7, 0, 0, 0}));
+    }
+    const std::size_t length = ClearRun::length(prover, segments);
+    ASSERT_GE(length, std::min<std::size_t>(segments, 16));
+    ASSERT_LE(length, 31);
+    for (std::size_t begin = 0; begin < segments; begin += length) {
+      const auto segment = [&](std::size_t k) {
+        return Segment::straight(waypoints[begin + k], waypoints[begin + k + 1]);
+      };
+      const std::size_t count = std::min(length, segments - begin);
+      ClearRun run(prover, segment, count);
+      for (std::size_t k = count; k-- > 0;) {
+        const ClearPoses* clear = run.at(k);
+        if (clear == nullptr) continue;  // where steps are long, no pair is apart on all of it
+        ++known;
+        EXPECT_GT(count, 1);
+        for (const double s : {0.0, 1.0}) {
+          EXPECT_TRUE(is_within(*clear, prover.sampler().rigid_pose(segment(k), s))) << k << " of " << count;
+        }
+      }
+    }
+  }
+  EXPECT_GT(known, 300);
 }
 
 // ---- Segments -------------------------------------------------------------------------------------------------------
