@@ -3,9 +3,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "kinematics/bodies.h"
+#include "reports/page/drawing.h"
 #include "reports/summary/scene.h"
 
 namespace taut {
@@ -24,9 +28,18 @@ struct BodyShape {
   [[nodiscard]] std::vector<Eigen::Vector3d> box() const;
 };
 
-/// The obstacles, then the bodies of the platform; none where the problem has none. Meshes are those that the
-/// checker was given.
+/// The obstacles, then the bodies of the platform. @param meshes  by their bodies' names; referred to
+[[nodiscard]] std::vector<BodyShape> body_shapes(const BodiesText& bodies, const BodyModel<double>& model,
+                                                 const std::map<std::string, ShownBody>& meshes);
+/// The same of a report; none where the problem has none. Meshes are those that the checker was given.
 [[nodiscard]] std::vector<BodyShape> body_shapes(const ReportContext& scene);
+
+/// The corners of what of the obstacles is next to some points: what is far from the machine would make it tiny.
+[[nodiscard]] std::vector<Eigen::Vector3d> near_parts(const std::vector<BodyShape>& bodies,
+                                                      const std::vector<Eigen::Vector3d>& points);
+/// The path of the feature_edges() of a body of triangles in a picture, the longest ones if there are many.
+[[nodiscard]] std::string edges_data(const ShownBody& body, const Eigen::Vector3d& towards,
+                                     const std::function<Point2(const Eigen::Vector3d&)>& place);
 
 /// "obstacles: floor, stack", in quotes; at most `most` names. Nothing where there are none.
 [[nodiscard]] std::string body_names(const std::vector<BodyText>& bodies, std::size_t most);

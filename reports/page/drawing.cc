@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -89,6 +90,21 @@ std::vector<std::size_t> hull(const std::vector<Point2>& points) {
     std::ranges::reverse(order);
   }
   return result;
+}
+
+std::vector<Point2> outline_of(const std::vector<Point2>& points, double radius) {
+  constexpr int kCorners = 32;  // of a circle
+  std::vector<Point2> all;
+  for (const Point2& p : points) {
+    all.push_back(p);
+    for (int k = 0; radius > 0 && k < kCorners; ++k) {
+      const double angle = 2 * std::numbers::pi / kCorners * k;
+      all.emplace_back(p + radius * Point2(std::cos(angle), std::sin(angle)));
+    }
+  }
+  std::vector<Point2> outline;
+  for (const std::size_t i : hull(all)) outline.push_back(all[i]);
+  return outline;
 }
 
 std::vector<Vector3d> distinct(const std::vector<Vector3d>& points) {

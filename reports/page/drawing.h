@@ -23,6 +23,9 @@ using Point2 = Eigen::Vector2d;
 /// give one corner.
 [[nodiscard]] std::vector<std::size_t> hull(const std::vector<Point2>& points);
 
+/// The corners of the outline of all within a radius of the convex hull of some points.
+[[nodiscard]] std::vector<Point2> outline_of(const std::vector<Point2>& points, double radius);
+
 /// A side of a body in space.
 struct Face {
   std::vector<Eigen::Vector3d> corners;  ///< counter-clockwise, seen from outside

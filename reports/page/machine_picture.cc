@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numbers>
 #include <tuple>
 
 #include "problem/expression.h"
@@ -206,27 +204,11 @@ void Picture::base() {
   if (sides.empty() && anchors.size() > 1) stroke("frame", "unseen-casing", anchors.front(), anchors.back());
 }
 
-/// The edges of a body that is only shown, the longest ones if there are many.
-std::string edges_data(const ShownBody& body, const std::function<Point2(const Vector3d&)>& place) {
-  constexpr std::size_t kMostEdges = 2000;
-  struct Edge {
-    Point2 a, b;
-  };
-  std::vector<Edge> edges;
-  for (const auto& [a, b] : feature_edges(body)) {
-    edges.push_back({place(Vector3d(a[0], a[1], a[2])), place(Vector3d(b[0], b[1], b[2]))});
-  }
-  std::ranges::sort(edges, std::greater(), [](const Edge& e) { return (e.a - e.b).norm(); });
-  edges.resize(std::min(edges.size(), kMostEdges), {Point2::Zero(), Point2::Zero()});
-  std::string data;
-  for (const Edge& edge : edges) data += path_data({edge.a, edge.b}, false);
-  return data;
-}
-
 void Picture::shown_frame() {
   const std::optional<ShownBody>& frame = scene_.illustration.decoration.frame;
   if (!frame) return;
-  behind_ += html("<path class=\"shown\" d=\"{}\"/>", edges_data(*frame, [&](const Vector3d& p) { return place(p); }));
+  behind_ += html("<path class=\"shown\" d=\"{}\"/>",
+                  edges_data(*frame, view_.towards(), [&](const Vector3d& p) { return place(p); }));
 }
 
 void Picture::shown_payload() {
@@ -239,23 +221,7 @@ void Picture::shown_payload() {
   std::vector<Point2> outline;
   for (const std::size_t i : hull(points)) outline.push_back(points[i]);
   between_ += html("<path class=\"shown payload\" d=\"{}\"/><path class=\"shown edges\" d=\"{}\"/>",
-                   path_data(outline, true), edges_data(*payload, at));
-}
-
-/// The outline in the picture of all within a radius of the convex hull of some points.
-std::vector<Point2> outline_of(const std::vector<Point2>& points, double radius) {
-  constexpr int kCorners = 32;  // of a circle
-  std::vector<Point2> all;
-  for (const Point2& p : points) {
-    all.push_back(p);
-    for (int k = 0; radius > 0 && k < kCorners; ++k) {
-      const double angle = 2 * std::numbers::pi / kCorners * k;
-      all.emplace_back(p + radius * Point2(std::cos(angle), std::sin(angle)));
-    }
-  }
-  std::vector<Point2> outline;
-  for (const std::size_t i : hull(all)) outline.push_back(all[i]);
-  return outline;
+                   path_data(outline, true), edges_data(*payload, turn.transpose() * view_.towards(), at));
 }
 
 /// Bodies that may not touch: those behind the platform first, with the edges of those that have some and their names.
@@ -285,7 +251,8 @@ void Picture::bodies() {
     Html& layer = !body.is_obstacle ? between_ : towards.dot(middle) < depth ? behind_ : front_;
     if (body.mesh) {
       layer += html("<path class=\"body-edges{}\" d=\"{}\"/>", kind,
-                    edges_data(*body.mesh, [&](const Vector3d& p) { return place(at(p)); }));
+                    edges_data(*body.mesh, body.is_obstacle ? towards : Vector3d(turn.transpose() * towards),
+                               [&](const Vector3d& p) { return place(at(p)); }));
     } else {
       layer += html("<path class=\"body{}\" d=\"{}\"/>", kind,
                     path_data(outline_of(placed(points), scale_ * body.radius), true));

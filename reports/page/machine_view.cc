@@ -46,25 +46,6 @@ MachineView::Grid grid_below(const MachineView& view) {
   return grid;
 }
 
-/// The corners of what of the obstacles is next to some points: what is far from the machine would make it tiny.
-std::vector<Vector3d> near_parts(const std::vector<BodyShape>& bodies, const std::vector<Vector3d>& points) {
-  constexpr double kBeyond = 0.25;  // of the size of the machine
-  Eigen::AlignedBox3d machine;
-  for (const Vector3d& p : points) machine.extend(p);
-  const Vector3d more = Vector3d::Constant(kBeyond * machine.sizes().maxCoeff());
-  machine = Eigen::AlignedBox3d(Vector3d(machine.min() - more), Vector3d(machine.max() + more));
-  std::vector<Vector3d> result;
-  for (const BodyShape& body : bodies) {
-    if (!body.is_obstacle || body.is_half_space) continue;
-    Eigen::AlignedBox3d box;
-    for (const Vector3d& p : body.box()) box.extend(p);
-    box = box.intersection(machine);
-    if (box.isEmpty()) continue;
-    for (int k = 0; k < 8; ++k) result.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
-  }
-  return result;
-}
-
 /// The height of a level half-space below the machine, on which it stands; nothing where there is none.
 std::optional<double> floor_height(const MachineView& view, const std::vector<BodyShape>& bodies) {
   std::optional<double> height;

@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <tuple>
 
 #include "base/input_error.h"
+#include "reports/page/body_shapes.h"
 #include "reports/page/drawing.h"
 #include "reports/page/machine_view.h"
 #include "reports/summary/display_units.h"
+#include "reports/summary/shown_bodies.h"
 
 namespace taut {
 
@@ -29,6 +33,14 @@ struct DrawnRobot {
   Vector3d force;                        ///< nominal, at this pose [N]
   Vector3d down;                         ///< in the drawing
   DisplayUnit length;
+  Vector3d origin;                ///< of the platform [m]
+  Matrix3<double> turn;           ///< of the platform
+  std::vector<BodyShape> bodies;  ///< drawn, too
+
+  /// Where a point of a body is in W.
+  [[nodiscard]] Vector3d at(const BodyShape& body, const Vector3d& p) const {
+    return body.is_obstacle ? p : Vector3d(origin + turn * p);
+  }
 };
 
 DrawnRobot drawn_robot(const Model<double>& model, const LoadText& load, const Pose<double>& pose,
@@ -39,8 +51,33 @@ DrawnRobot drawn_robot(const Model<double>& model, const LoadText& load, const P
                     pose.p_WP + turn * model.p_PM,
                     nominal_wrench(model.loads, model.wrench, turn).head<3>(),
                     downward(model, load),
-                    length};
+                    length,
+                    pose.p_WP,
+                    turn,
+                    {}};
   for (const Vector3d& b : model.p_PB) result.platform.emplace_back(pose.p_WP + turn * b);
+  return result;
+}
+
+/// What of its bodies is drawn, as points: all that the platform carries, of obstacles what is near, and of half-spaces
+/// what is next to a machine that is not far from them.
+std::vector<Vector3d> drawn_parts(const DrawnRobot& robot) {
+  std::vector<Vector3d> machine = robot.base, result;
+  std::ranges::copy(robot.platform, std::back_inserter(machine));
+  machine.push_back(robot.load);
+  for (const BodyShape& body : robot.bodies) {
+    if (body.is_obstacle) continue;
+    for (const Vector3d& p : body.box()) result.push_back(robot.at(body, p));
+  }
+  std::ranges::copy(result, std::back_inserter(machine));
+  std::ranges::copy(near_parts(robot.bodies, machine), std::back_inserter(result));
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& p : machine) box.extend(p);
+  for (const BodyShape& body : robot.bodies) {
+    if (!body.is_half_space) continue;
+    const double height = body.normal.dot(robot.load) - body.offset;
+    if (std::abs(height) < box.diagonal().norm()) result.emplace_back(robot.load - height * body.normal);
+  }
   return result;
 }
 
@@ -111,6 +148,9 @@ class Projection {
 
  private:
   [[nodiscard]] Point2 place(const Vector3d& p) const { return (view_(p) - middle_) * scale_ + centre_; }
+  void bodies();
+  /// The part of a half-space that is seen from its side; nothing of others.
+  [[nodiscard]] std::vector<Point2> seen_from_aside(const BodyShape& half_space) const;
   void dimensions();
   /// Between two heights or two distances to the right [m], drawn beyond the points that have them.
   void horizontal(double from, double to, double y, double from_y, double to_y);
@@ -118,10 +158,12 @@ class Projection {
   [[nodiscard]] std::string size(double metres) const {
     return fmt::format("{:.4g}", robot_.length.approx(std::abs(metres)));
   }
-  void label(const char* kind, const std::string& text, const Point2& at);
+  /// @param is_inside  it may be on the point, and is best there; else beside it
+  void label(const char* kind, const std::string& text, const Point2& at, bool is_inside = false);
 
   const DrawnRobot& robot_;
   const View& view_;
+  const Eigen::AlignedBox2d& bounds_;  ///< of what is drawn [m]
   Point2 corner_;
   double page_height_;
   double scale_;  ///< [px/m]
@@ -131,12 +173,14 @@ class Projection {
   std::vector<Point2> a_, b_;
   Html drawn_;
   LabelPlacer labels_;
+  std::vector<std::tuple<std::string, std::string, Point2>> body_names_;  ///< name, kind, and where it is
 };
 
 Projection::Projection(const DrawnRobot& robot, const View& view, const Point2& corner, double side, double scale,
                        const Eigen::AlignedBox2d& bounds, double page_height)
     : robot_(robot),
       view_(view),
+      bounds_(bounds),
       corner_(corner),
       page_height_(page_height),
       scale_(scale),
@@ -149,6 +193,52 @@ Projection::Projection(const DrawnRobot& robot, const View& view, const Point2& 
     for (const Point2& p : *points) box_.extend(p);
   }
   box_.extend(place(robot.load));
+  for (const Vector3d& p : drawn_parts(robot)) box_.extend(place(p));
+}
+
+std::vector<Point2> Projection::seen_from_aside(const BodyShape& half_space) const {
+  constexpr double kFlat = 1e-6, kMore = 0.05;
+  const Point2 normal = view_(half_space.normal);
+  if (!(normal.norm() > 1 - kFlat)) return {};
+  const Point2 more = Point2::Constant(kMore * bounds_.sizes().maxCoeff());
+  const Point2 low = bounds_.min() - more, high = bounds_.max() + more;
+  const std::array<Point2, 4> corners{low, Point2(high.x(), low.y()), high, Point2(low.x(), high.y())};
+  std::vector<Point2> result;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Point2 &a = corners[k], &b = corners[(k + 1) % corners.size()];
+    const double above_a = normal.dot(a) - half_space.offset, above_b = normal.dot(b) - half_space.offset;
+    if (above_a <= 0) result.push_back(a);
+    if ((above_a <= 0) != (above_b <= 0)) result.emplace_back(a + above_a / (above_a - above_b) * (b - a));
+  }
+  for (Point2& p : result) p = (p - middle_) * scale_ + centre_;
+  return result;
+}
+
+void Projection::bodies() {
+  constexpr std::size_t kLongestName = 24;
+  const Eigen::AlignedBox2d frame((bounds_.min() - middle_) * scale_ + centre_,
+                                  (bounds_.max() - middle_) * scale_ + centre_);
+  for (const BodyShape& body : robot_.bodies) {
+    const char* const kind = body.is_obstacle ? "" : " carried";
+    const auto at = [&](const Vector3d& p) { return place(robot_.at(body, p)); };
+    const Vector3d in_world = view_.down.cross(view_.right);
+    const Vector3d towards = body.is_obstacle ? in_world : Vector3d(robot_.turn.transpose() * in_world);
+    std::vector<Point2> outline;
+    if (body.is_half_space) {
+      outline = seen_from_aside(body);
+    } else {
+      for (const Vector3d& p : body.mesh != nullptr ? body.box() : body.points) outline.push_back(at(p));
+      if (body.mesh == nullptr) outline = outline_of(outline, scale_ * body.radius);
+    }
+    Eigen::AlignedBox2d seen;
+    for (const Point2& p : outline) seen.extend(p);
+    seen = seen.intersection(frame);
+    if (seen.isEmpty()) continue;
+    drawn_ += body.mesh != nullptr
+                  ? html("<path class=\"edges{}\" d=\"{}\"/>", kind, edges_data(*body.mesh, towards, at))
+                  : html("<path class=\"body{}\" d=\"{}\"/>", kind, path_data(outline, true));
+    if (body.name.size() <= kLongestName) body_names_.emplace_back(body.name, kind, seen.center());
+  }
 }
 
 void Projection::horizontal(double from, double to, double y, double from_y, double to_y) {
@@ -192,9 +282,10 @@ void Projection::dimensions() {
   if (is_level) vertical(top.y(), b_bottom.y(), box_.max().x() + 54, top.x(), b_bottom.x());
 }
 
-void Projection::label(const char* kind, const std::string& text, const Point2& at) {
+void Projection::label(const char* kind, const std::string& text, const Point2& at, bool is_inside) {
   const Point2 half = half_size(text, 12);
   std::vector<LabelPlacer::Candidate> candidates;
+  if (is_inside) candidates.push_back({at, 0});
   for (const double away : {6.0, 12.0, 20.0}) {
     for (const auto& [x, y] : {std::pair(1, -1), {-1, -1}, {1, 1}, {-1, 1}, {0, -1}, {0, 1}}) {
       candidates.push_back(
@@ -207,6 +298,7 @@ void Projection::label(const char* kind, const std::string& text, const Point2& 
 
 Html Projection::draw() {
   drawn_ += words("title", {corner_.x() - kPad + 8, kHead - 6}, view_.title);
+  bodies();
   drawn_ += frame("base", a_) + frame("platform", b_);
   for (std::size_t i = 0; i < kCables; ++i) {
     drawn_ += line("cable", a_[i], b_[i]);
@@ -225,6 +317,7 @@ Html Projection::draw() {
     drawn_ += html("<circle class=\"tag\" cx=\"{}\" cy=\"{}\" r=\"8\"/>", coordinate(tag.x()), coordinate(tag.y())) +
               words("number", tag + Point2(0, 4), std::to_string(i + 1));
   }
+  for (const auto& [name, kind, at] : body_names_) label(("body-name" + kind).c_str(), name, at, true);
   const Point2 from = place(robot_.load);
   drawn_ += html("<circle class=\"load\" cx=\"{}\" cy=\"{}\" r=\"3\"/>", coordinate(from.x()), coordinate(from.y()));
   if (robot_.force.norm() > 0) {
@@ -251,6 +344,7 @@ struct Views {
 /// The three views beside each other, each `side` pixels wide; nothing where the robot has no size that can be drawn.
 std::optional<Views> three_views(const DrawnRobot& robot, double side) {
   const std::array<View, 3> all = views(robot.down);
+  const std::vector<Vector3d> parts = drawn_parts(robot);
   std::array<Eigen::AlignedBox2d, 3> bounds;
   double widest = 0;  // one scale for all of them [m]
   for (std::size_t v = 0; v < all.size(); ++v) {
@@ -258,6 +352,7 @@ std::optional<Views> three_views(const DrawnRobot& robot, double side) {
       for (const Vector3d& p : *points) bounds[v].extend(all[v](p));
     }
     bounds[v].extend(all[v](robot.load));
+    for (const Vector3d& p : parts) bounds[v].extend(all[v](p));
     widest = std::max(widest, bounds[v].sizes().maxCoeff());
   }
   if (!(widest > 0) || !std::isfinite(widest) || !robot.load.allFinite()) return std::nullopt;
@@ -287,6 +382,9 @@ constexpr const char* kStyle =
     ".scale{stroke:#1d2329;stroke-width:2}.tag{fill:#fff;stroke:#59636e}.number{font-weight:600}"
     ".extension{stroke:#b8bfc6;stroke-width:.7}.dimension{stroke:#3f4b57;stroke-width:.9}.measure{fill:#1d2329}"
     ".a,.soft{fill:#59636e}.b{fill:#8a5a00}.title{font-weight:600;font-size:14px;text-anchor:start}"
+    ".body{fill:#8595a6;fill-opacity:.38}.body.carried{fill:#7fae9f;fill-opacity:.5}"
+    ".edges{stroke:#41566b;stroke-width:.8}.edges.carried{stroke:#24594b}"
+    ".body-name{fill:#41566b}.body-name.carried{fill:#24594b}"
     ".loaded{fill:#b3261e;text-anchor:start}";
 
 /// "Red: the load, 1 N along (0, 0, 1)"
@@ -305,8 +403,13 @@ std::string robot_drawing(const CaseSummary& summary) {
                      "--out: the case has no query, expected one: the robot is drawn at its first waypoint");
   }
   const DisplayUnits units(summary.source.units);
-  const DrawnRobot robot =
+  DrawnRobot robot =
       drawn_robot(summary.sampler.model(), summary.source.problem.load, summary.waypoints.front().pose, units.length);
+  std::map<std::string, ShownBody> meshes;
+  if (const auto& bodies = summary.source.problem.bodies) {
+    meshes = shown_meshes(*bodies);
+    robot.bodies = body_shapes(*bodies, summary.bodies->bodies(), meshes);
+  }
   constexpr double kSide = 330;
   const std::optional<Views> views = three_views(robot, kSide);
   if (!views) throw InputError(ErrorCode::kUse, "--out: the robot has no pose or size there that can be drawn");
@@ -314,7 +417,9 @@ std::string robot_drawing(const CaseSummary& summary) {
   const std::string& name = summary.source.problem.name;
   const Html heading = words("title", {kPad / 2, 22}, name + ", at the first waypoint of its query") +
                        words("loaded", {kPad / 2, 42},
-                             fmt::format("{}. Dimensions in {}.", load_words(robot, units.force), units.length.name()));
+                             fmt::format("{}. {}Dimensions in {}.", load_words(robot, units.force),
+                                         robot.bodies.empty() ? "" : "Grey: obstacles. Green: bodies on the platform. ",
+                                         units.length.name()));
   return html(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
              "{1}\"><title>{2}</title><style>{3}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{4}"

@@ -11,8 +11,8 @@
 namespace taut {
 
 /// The robot at the first waypoint, from the front, from the side and from above, as an SVG document with numbered
-/// cables, named anchors, overall dimensions in the case's unit, the load's direction, the world's axes and a scale
-/// bar. @throws InputError if the case has no query.
+/// cables, named anchors, bodies, overall dimensions in the case's unit, the load's direction, the world's axes and a
+/// scale bar. @throws InputError if the case has no query.
 [[nodiscard]] std::string robot_drawing(const CaseSummary& summary);
 
 /// The same three views at the start of the path, for the report; nothing if there is no path, or where the numbers

@@ -139,12 +139,13 @@ std::map<std::string, ShownBody> shown_meshes(const BodiesText& bodies) {
   return result;
 }
 
-std::vector<std::array<Corner, 2>> feature_edges(const ShownBody& body) {
+std::vector<std::array<Corner, 2>> feature_edges(const ShownBody& body, const Eigen::Vector3d& towards) {
   // Corners by their places: STL files give every triangle its own.
   struct Sides {
     Eigen::Vector3d first = Eigen::Vector3d::Zero();
     int count = 0;
     bool turns = false;
+    std::array<bool, 2> is_aside{};  ///< in the picture, whether some triangle is on either side of the edge
   };
   std::map<std::array<Corner, 2>, Sides> edges;
   const double most_along = std::cos(std::numbers::pi / 6);
@@ -156,7 +157,10 @@ std::vector<std::array<Corner, 2>> feature_edges(const ShownBody& body) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Corner& a = at[i];
       const Corner& b = at[(i + 1) % 3];
-      Sides& sides = edges[a < b ? std::array{a, b} : std::array{b, a}];
+      const std::array<Corner, 2> edge = a < b ? std::array{a, b} : std::array{b, a};
+      Sides& sides = edges[edge];
+      const Eigen::Map<const Eigen::Vector3d> from(edge[0].data()), to(edge[1].data());
+      sides.is_aside[(to - from).cross(towards).dot(vector((i + 2) % 3) - from) > 0 ? 1 : 0] = true;
       if (++sides.count == 1) {
         sides.first = normal;
       } else {
@@ -166,7 +170,8 @@ std::vector<std::array<Corner, 2>> feature_edges(const ShownBody& body) {
   }
   std::vector<std::array<Corner, 2>> result;
   for (const auto& [edge, sides] : edges) {
-    if (sides.count == 1 || sides.turns) result.push_back(edge);
+    const bool is_outline = !(sides.is_aside[0] && sides.is_aside[1]);
+    if (is_outline || sides.turns) result.push_back(edge);
   }
   return result;
 }

@@ -6,6 +6,7 @@ Usage: show_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
 import glob
 import json
+import math
 import os
 import re
 import subprocess
@@ -114,6 +115,14 @@ class Show(unittest.TestCase):
             for have, want in zip(total, load["wrench"][:3]):
                 self.assertAlmostEqual(have, float(want), places=9)
 
+    def test_meshes_are_drawn_by_their_edges(self):
+        with tempfile.TemporaryDirectory() as folder:
+            drawing = os.path.join(folder, "crane.svg")
+            case = os.path.join(CASES, "bodies", "hexacrane-sphere-mesh.yaml")
+            self.assertEqual(run(TAUT, "show", case, "--out", drawing).returncode, 0)
+            drawn = [element.get("class") or "" for element in xml.parse(drawing).getroot().iter()]
+            self.assertEqual(sum(kind.split()[:1] == ["edges"] for kind in drawn), 3, "one a view")
+
     def test_every_case_is_shown_and_drawn(self):
         with tempfile.TemporaryDirectory() as folder:
             for case in sorted(glob.glob(os.path.join(CASES, "**", "*.yaml"), recursive=True)):
@@ -141,6 +150,34 @@ class Show(unittest.TestCase):
                     for name in [f"{side}{i}" for side in "AB" for i in range(1, 7)]:
                         self.assertGreaterEqual(named.split().count(name), 3)
                     self.assertNotRegex(xml.tostring(root, encoding="unicode"), r"nan|inf\b")
+
+    def test_bodies_are_drawn_to_scale(self):
+        """The stack is a box of 2.4 × 6.1 × 2.6 m, turned by 10 degrees about the vertical."""
+        with tempfile.TemporaryDirectory() as folder:
+            drawing = os.path.join(folder, "crane.svg")
+            case = os.path.join(CASES, "cranes", "portal-20t-stack.yaml")
+            self.assertEqual(run(TAUT, "show", case, "--out", drawing).returncode, 0)
+            root = xml.parse(drawing).getroot()
+            drawn = {}
+            for element in root.iter():
+                drawn.setdefault(element.get("class"), []).append(element)
+            names = [element.text for element in drawn["body-name"]]
+            self.assertEqual(sorted(names), ["floor", "floor", "stack", "stack", "stack"], "the floor from two sides")
+            self.assertIn("Green: bodies on the platform", drawn["loaded"][0].text)
+            scale = [float(x) for x in re.findall(r"[-\d.]+", drawn["scale"][0].get("d"))]
+            words = [element.text for element in root.iter() if element.tag.endswith("text")]
+            metres = next(float(word[:-2]) for word in words if re.fullmatch(r"\d+ m", word or ""))
+            per_metre = (scale[2] - scale[0]) / metres
+            sizes = []
+            for element in drawn["body"]:
+                numbers = [float(x) for x in re.findall(r"[-\d.]+", element.get("d"))]
+                wide, high = max(numbers[0::2]) - min(numbers[0::2]), max(numbers[1::2]) - min(numbers[1::2])
+                sizes.append((wide / per_metre, high / per_metre))
+            cos, sin = math.cos(math.radians(10)), math.sin(math.radians(10))
+            across, along = 2.4 * cos + 6.1 * sin, 6.1 * cos + 2.4 * sin
+            for expected in ((across, 2.6), (along, 2.6), (across, along)):
+                self.assertTrue(any(abs(w - expected[0]) < 0.05 and abs(h - expected[1]) < 0.05 for w, h in sizes),
+                                f"{expected} in {sizes}")
 
     def test_wrong_use(self):
         with tempfile.TemporaryDirectory() as folder:

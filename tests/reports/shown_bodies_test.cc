@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "reports/page/machine_picture.h"
 #include "tests/reports/sample_certificates.h"
@@ -33,7 +35,7 @@ ShownBody box(double x, double y, double z) {
 }
 
 TEST(ShownBodies, OfABoxTheTwelveEdgesAreDrawnAndNoDiagonal) {
-  const auto edges = feature_edges(box(1, 2, 3));
+  const auto edges = feature_edges(box(1, 2, 3), {3, 2, 1});
   EXPECT_EQ(edges.size(), 12u);
   for (const auto& [a, b] : edges) {
     const int differ = (a[0] != b[0] ? 1 : 0) + (a[1] != b[1] ? 1 : 0) + (a[2] != b[2] ? 1 : 0);
@@ -43,7 +45,29 @@ TEST(ShownBodies, OfABoxTheTwelveEdgesAreDrawnAndNoDiagonal) {
 
 TEST(ShownBodies, RimsAreDrawn) {
   const ShownBody plate{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-  EXPECT_EQ(feature_edges(plate).size(), 4u);
+  EXPECT_EQ(feature_edges(plate, {1, 2, 3}).size(), 4u);
+}
+
+TEST(ShownBodies, OfWhatIsRoundTheOutlineIsDrawn) {
+  constexpr std::uint32_t kSides = 24;  // of a drum about the axis z; it turns by 15 degrees from one to the next
+  ShownBody drum;
+  for (std::uint32_t k = 0; k < kSides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kSides + 0.1;
+    for (const double z : {0.0, 1.0}) drum.corners.push_back({std::cos(angle), std::sin(angle), z});
+  }
+  for (std::uint32_t k = 0; k < kSides; ++k) {
+    const std::uint32_t a = 2 * k, b = 2 * ((k + 1) % kSides);
+    drum.triangles.push_back({a, b, a + 1});
+    drum.triangles.push_back({b + 1, a + 1, b});  // whichever way round
+  }
+  std::size_t upright = 0;
+  for (const auto& [a, b] : feature_edges(drum, {1, 0, 0.2})) {
+    if (a[2] == b[2]) continue;  // of a rim
+    EXPECT_EQ(a[0], b[0]) << "a diagonal";
+    EXPECT_GT(std::abs(a[1]), 0.98) << "at the left and the right";
+    ++upright;
+  }
+  EXPECT_EQ(upright, 2u);
 }
 
 TEST(ShownBodies, TravelInAnIllustrationOfIntegers) {
