@@ -280,7 +280,10 @@ const std::map<std::string, Interpolation>& audit_laws() {
 }
 
 AuditRequest resolved(AuditRequest request, const Case& the_case, const std::string& case_path) {
-  if (!request.path.name.empty()) return request;
+  if (!request.path.name.empty()) {
+    if (request.timed && !request.rounding && the_case.audit) request.rounding = the_case.audit->rounding;
+    return request;
+  }
   if (!the_case.audit) {
     throw InputError(case_path + ": got no PATH and no key 'audit', expected a path to audit", {case_path});
   }

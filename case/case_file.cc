@@ -544,10 +544,10 @@ AuditedPath read_audited_path(const Field& field, const Units& units, bool has_t
 constexpr std::size_t kMaxName = 200;  // bytes, of a case
 
 std::string read_name(const Field& field) {
-  const std::string expected = fmt::format("a name of 1 to {} characters on one line", kMaxName);
+  const std::string expected = fmt::format(
+      "a name of 1 to {} bytes on one line, without characters that hide text or change its direction", kMaxName);
   const std::string name = field.text(expected);
-  const bool is_line = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 127; });
-  if (!is_line || name.size() > kMaxName) field.fail(expected);
+  if (sanitize(name) != name || name.size() > kMaxName) field.fail(expected);
   return name;
 }
 

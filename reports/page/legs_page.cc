@@ -209,18 +209,22 @@ std::string legs_page(const checker::CheckResult& checked, const ReportOptions& 
   std::vector<LegOnPage> legs;
   legs.reserve(checked.legs.size());
   for (const checker::CheckResult& leg : checked.legs) legs.emplace_back(leg, options);
+  // Without a title of its own a leg is headed "CASE, leg NAME".
   const Summary& first = legs.front().summary;
+  const std::string of_leg = ", leg " + legs.front().name;
+  std::string title = first.title;
+  if (title.ends_with(of_leg)) title.erase(title.size() - of_leg.size());
   const Word word = word_of(checked);
   const std::string footer = checked.certificate->at("footer").at("sha256").get<std::string>();
   const std::string document = options.document.empty() ? document_number(footer) : options.document;
   const Html body = html("<header class=\"first\">\n{}<h1><bdi>{}</bdi></h1>\n{}{}</header>\n",
-                         masthead(document, options.revision, options.date), first.title, title_note(),
+                         masthead(document, options.revision, options.date), title, title_note(),
                          band(word, headline(word, legs))) +
                     section("legs", "Legs", table_of_legs(legs)) + headroom(legs) +
                     section("assumptions", "What this verdict says nothing about", uncovered_of_legs(legs)) +
                     claim(checked) + check_again(checked);
   return html_document({.window_title = "Report of legs: " + word.text,
-                        .title = first.title,
+                        .title = title,
                         .word = word.text,
                         .document = document,
                         .revision = options.revision,

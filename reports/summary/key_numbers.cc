@@ -280,8 +280,10 @@ KeyNumber growth_number(const ReportContext& scene) {
   const std::optional<TolerancesText>& tolerances = scene.certificate.problem.tolerances;
   std::string detail = "the whole set of loads, about the nominal one";
   if (tolerances) detail += ", with all tolerances as stated";
-  return {"growth", "Load uncertainty could grow",          "× " + growth_text(scale),
-          detail,   growth_nearness(nearest_double(scale)), true};
+  const double factor = nearest_double(scale);
+  constexpr double kMost = 1e6;  // that a certificate states
+  if (factor >= kMost) detail += "; there is hardly any";
+  return {"growth", "Load uncertainty could grow", "× " + growth_text(scale), detail, growth_nearness(factor), true};
 }
 
 /// What share of the uncertainties is provable, as the program says that sought it; nothing where that is of another
