@@ -729,6 +729,11 @@ CaseOfLegs read_legs_of(const Field& root, const std::string& text, const std::s
     }
     leg.expect = Expectation::kNone;
     leg.bounds.clear();
+    const auto bodies = root.open_map("a case").find("bodies");
+    if (bodies && !leg.problem.bodies) {
+      leg.warnings.push_back(bodies->remark(fmt::format(
+          "no two bodies of the leg '{}' could touch, so that nothing is checked of its bodies", leg_name)));
+    }
     for (const std::string& warning : leg.warnings) {
       std::vector<std::string>& all = result.whole.warnings;
       if (std::ranges::find(all, warning) == all.end()) all.push_back(warning);

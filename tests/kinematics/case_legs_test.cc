@@ -248,6 +248,8 @@ TEST(CaseLegs, WithoutAnythingThatCouldTouchHaveNoBodies) {
   EXPECT_FALSE(read.legs[0].content.bodies);
   EXPECT_TRUE(read.legs[1].content.problem.bodies);
   EXPECT_FALSE(read.legs[2].content.problem.bodies);
+  ASSERT_EQ(read.whole.warnings.size(), 2U);
+  EXPECT_THAT(read.whole.warnings[0], HasSubstr("bodies: no two bodies of the leg 'fetch' could touch"));
   s.end = "  exit_cones: [{cable: 1, end: base, axis: [0, 0, -1], half_angle: 80 deg}]\n";
   for (const CaseLeg& leg : parse(s.whole()).legs) {
     EXPECT_EQ(leg.content.problem.bodies.value().exit_cones.size(), 1U) << leg.name;
