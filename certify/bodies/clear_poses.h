@@ -31,8 +31,8 @@ class ClearPoses {
     kSmaller,  ///< smaller boxes within it are asked first for the pairs that it leaves
   };
 
-  /// In a box around some poses and, it is to be hoped, all on a smooth way through them. Restores the caller's rounding
-  /// mode.
+  /// In a box around some poses and, it is to be hoped, all on a smooth way through them. Restores the caller's
+  /// rounding mode.
   /// @param wider  what is known of more poses: then of those in both boxes
   /// @returns null where no pair is apart at all of them
   [[nodiscard]] static std::unique_ptr<const ClearPoses> around(const Machine& machine,

@@ -148,6 +148,7 @@ std::vector<std::array<Corner, 2>> feature_edges(const ShownBody& body, const Ei
     std::array<bool, 2> is_aside{};  ///< in the picture, whether some triangle is on either side of the edge
   };
   std::map<std::array<Corner, 2>, Sides> edges;
+  constexpr double kEdgeOn = 1e-6;  // of a triangle's size: it is on neither side then
   const double most_along = std::cos(std::numbers::pi / 6);
   for (const auto& triangle : body.triangles) {
     std::array<Corner, 3> at;
@@ -160,7 +161,10 @@ std::vector<std::array<Corner, 2>> feature_edges(const ShownBody& body, const Ei
       const std::array<Corner, 2> edge = a < b ? std::array{a, b} : std::array{b, a};
       Sides& sides = edges[edge];
       const Eigen::Map<const Eigen::Vector3d> from(edge[0].data()), to(edge[1].data());
-      sides.is_aside[(to - from).cross(towards).dot(vector((i + 2) % 3) - from) > 0 ? 1 : 0] = true;
+      const Eigen::Vector3d along = to - from, across = vector((i + 2) % 3) - from;
+      const double side = along.cross(towards).dot(across);
+      const double flat = kEdgeOn * along.norm() * across.norm();
+      if (std::abs(side) > flat) sides.is_aside[side > 0 ? 1 : 0] = true;
       if (++sides.count == 1) {
         sides.first = normal;
       } else {

@@ -27,9 +27,9 @@ namespace taut {
 /// The meshes that were read among some bodies, by these bodies' names.
 [[nodiscard]] std::map<std::string, ShownBody> shown_meshes(const BodiesText& bodies);
 
-/// The edges that show a body's form, as pairs of points: those at which it turns by more than 30 degrees, its rims, and
-/// those at which it bends out of sight.
-/// @param towards  who looks, in the body's axes
+/// The edges that show a body's form, as pairs of points: those at which it turns by more than 30 degrees, its rims,
+/// and those at which it bends out of sight.
+/// @param towards  who looks, in the body's axes; of length 1
 [[nodiscard]] std::vector<std::array<std::array<double, 3>, 2>> feature_edges(const ShownBody& body,
                                                                               const Eigen::Vector3d& towards);
 

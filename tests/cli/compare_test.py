@@ -88,7 +88,8 @@ class Compare(InFolder):
         """Of a table of tilt and torsion: a right proof of what the same numbers mean as roll, pitch and yaw."""
         rows = ["0,0,350,0.6,0.9,0.6", "0,0,350,0.62,0.9,0.6"]
         slice = "  slice: {px: 0, py: 0, pz: 350, sigma: 34 deg}"
-        turned = text_of(ROBOT1).split("\nquery:")[0].replace(slice, "  angles: roll-pitch-yaw\n  slice: {px: 0, py: 0, pz: 350, yaw: 0}")
+        turned = "  angles: roll-pitch-yaw\n  slice: {px: 0, py: 0, pz: 350, yaw: 0}"
+        turned = text_of(ROBOT1).split("\nquery:")[0].replace(slice, turned)
         turned = self.write("turned.yaml", turned)
         self.audit(rows=["px[mm],py[mm],pz[mm],roll[rad],pitch[rad],yaw[rad]"] + rows, case=turned)
         asked = self.write("asked.csv", "\n".join(["px[mm],py[mm],pz[mm],phi[rad],theta[rad],sigma[rad]"] + rows))

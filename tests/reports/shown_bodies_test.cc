@@ -35,7 +35,7 @@ ShownBody box(double x, double y, double z) {
 }
 
 TEST(ShownBodies, OfABoxTheTwelveEdgesAreDrawnAndNoDiagonal) {
-  const auto edges = feature_edges(box(1, 2, 3), {3, 2, 1});
+  const auto edges = feature_edges(box(1, 2, 3), Eigen::Vector3d(3, 2, 1).normalized());
   EXPECT_EQ(edges.size(), 12u);
   for (const auto& [a, b] : edges) {
     const int differ = (a[0] != b[0] ? 1 : 0) + (a[1] != b[1] ? 1 : 0) + (a[2] != b[2] ? 1 : 0);
@@ -45,7 +45,7 @@ TEST(ShownBodies, OfABoxTheTwelveEdgesAreDrawnAndNoDiagonal) {
 
 TEST(ShownBodies, RimsAreDrawn) {
   const ShownBody plate{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-  EXPECT_EQ(feature_edges(plate, {1, 2, 3}).size(), 4u);
+  EXPECT_EQ(feature_edges(plate, Eigen::Vector3d(1, 2, 3).normalized()).size(), 4u);
 }
 
 TEST(ShownBodies, OfWhatIsRoundTheOutlineIsDrawn) {
@@ -61,7 +61,7 @@ TEST(ShownBodies, OfWhatIsRoundTheOutlineIsDrawn) {
     drum.triangles.push_back({b + 1, a + 1, b});  // whichever way round
   }
   std::size_t upright = 0;
-  for (const auto& [a, b] : feature_edges(drum, {1, 0, 0.2})) {
+  for (const auto& [a, b] : feature_edges(drum, Eigen::Vector3d(1, 0, 0.2).normalized())) {
     if (a[2] == b[2]) continue;  // of a rim
     EXPECT_EQ(a[0], b[0]) << "a diagonal";
     EXPECT_GT(std::abs(a[1]), 0.98) << "at the left and the right";
