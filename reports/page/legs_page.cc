@@ -217,12 +217,12 @@ std::string legs_page(const checker::CheckResult& checked, const ReportOptions& 
   const Word word = word_of(checked);
   const std::string footer = checked.certificate->at("footer").at("sha256").get<std::string>();
   const std::string document = options.document.empty() ? document_number(footer) : options.document;
-  const Html body = html("<header class=\"first\">\n{}<h1><bdi>{}</bdi></h1>\n{}{}</header>\n",
-                         masthead(document, options.revision, options.date), title, title_note(),
-                         band(word, headline(word, legs))) +
-                    section("legs", "Legs", table_of_legs(legs)) + headroom(legs) +
-                    section("assumptions", "What this verdict says nothing about", uncovered_of_legs(legs)) +
-                    claim(checked) + check_again(checked);
+  const Html body =
+      html("<header class=\"first\">\n{}<h1><bdi>{}</bdi></h1>\n{}{}</header>\n",
+           masthead(document, options.revision, options.date), title, title_note(), band(word, headline(word, legs))) +
+      section("legs", "Legs", table_of_legs(legs)) + headroom(legs) +
+      section("assumptions", "What this verdict says nothing about", uncovered_of_legs(legs)) + claim(checked) +
+      check_again(checked);
   return html_document({.window_title = "Report of legs: " + word.text,
                         .title = title,
                         .word = word.text,
